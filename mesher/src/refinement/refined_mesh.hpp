@@ -109,7 +109,7 @@ class RefinedMesh {
   }
   /// The same, if is_split(sliver). `add(p)` and `drop()`: of a place; `fits()`: the vertex that is
   /// dug may be where it is; `otherwise(sliver, floor2)`: digs another vertex, if none may, or
-  /// returns nothing.
+  /// returns nothing. Where there is no room for vertices none is dug.
   template <class IsSplit, class Add, class Drop, class Fits, class Otherwise>
   [[nodiscard]] std::optional<std::uint32_t> dig_sliver_if(IsSplit&& is_split, Add&& add,
                                                            Drop&& drop, Fits&& fits,
@@ -177,7 +177,7 @@ std::optional<std::uint32_t> RefinedMesh<D>::dig_sliver_if(IsSplit&& is_split, A
   if constexpr (D == 3) {
     if (!slivers_.any()) return std::nullopt;
     if (!slivers_.started()) slivers_.start(kernel_, kinds_);
-    if (full_with() != 0) return std::nullopt;  // there is no room
+    if (full_with() != 0) return std::nullopt;
     for (std::uint32_t s; (s = slivers_.take(kernel_)) != kNone;) {
       watch(kBetweenWatches / kSliverTakes * ++taken_, kernel_.places());
       if (!is_split(s)) continue;

@@ -80,15 +80,21 @@ void Slivers::start(const Kernel& kernel, const std::vector<VertexKind>& kinds) 
   }
 }
 
+std::array<std::uint32_t, 4> Slivers::sorted_corners(const Kernel& kernel, std::uint32_t s) {
+  auto corners = kernel.simplices().corners(s);
+  std::sort(corners.begin(), corners.end(),
+            [&](auto v, auto w) { return kernel.place(v) < kernel.place(w); });
+  return corners;
+}
+
 auto Slivers::entry_of(const Kernel& kernel, std::uint32_t s) -> Entry {
-  std::array<Point<3>, 4> corners;
-  for (std::size_t i = 0; i < 4; ++i) corners[i] = kernel.place(kernel.simplices().corners(s)[i]);
-  std::sort(corners.begin(), corners.end());
-  Entry entry{std::numeric_limits<double>::infinity(), corners[0], s};
+  const auto corners = sorted_corners(kernel, s);
+  const auto at = [&](std::size_t i) -> const auto& { return kernel.place(corners[i]); };
+  Entry entry{std::numeric_limits<double>::infinity(), at(0), s};
   for (std::size_t i = 1; i < 4; ++i) {
-    entry.sum = plus(entry.sum, corners[i]);
+    entry.sum = plus(entry.sum, at(i));
     for (std::size_t k = 0; k < i; ++k) {
-      entry.shortest2 = std::min(entry.shortest2, squared_distance(corners[i], corners[k]));
+      entry.shortest2 = std::min(entry.shortest2, squared_distance(at(i), at(k)));
     }
   }
   return entry;
@@ -136,9 +142,7 @@ std::uint32_t Slivers::take(const Kernel& kernel) {
   if (queue_.empty() && split_ != split_before_ && rounds_ < kRounds) {
     ++rounds_;
     split_before_ = split_;
-    const std::vector<std::uint32_t> again = std::move(left_);
-    left_.clear();
-    for (const std::uint32_t s : again) {
+    for (std::uint32_t s = 0; s < wait_.size(); ++s) {
       if (wait_[s] == Wait::left) add(kernel, s);
     }
   }
@@ -154,7 +158,8 @@ std::uint32_t Slivers::take(const Kernel& kernel) {
 }
 
 std::size_t Slivers::left() const noexcept {
-  return static_cast<std::size_t>(std::count(wait_.begin(), wait_.end(), Wait::left));
+  return static_cast<std::size_t>(
+      std::count_if(wait_.begin(), wait_.end(), [](Wait w) { return w != Wait::none; }));
 }
 
 bool Slivers::is_below_floor(const Kernel& kernel, std::uint32_t s, double shortest2) const {
@@ -170,10 +175,7 @@ double Slivers::least_floor2(const Kernel& kernel, std::uint32_t s) const {
 /// The other slivers around the corner of s that is the least.
 void Slivers::find_beside(Kernel& kernel, std::uint32_t s) {
   beside_.clear();
-  std::uint32_t owner = kNone;
-  for (const std::uint32_t v : kernel.simplices().corners(s)) {
-    if (owner == kNone || kernel.place(v) < kernel.place(owner)) owner = v;
-  }
+  const std::uint32_t owner = sorted_corners(kernel, s)[0];
   static_cast<void>(kernel.find_in_star(owner, star_, [](std::uint32_t) { return false; }));
   for (const std::uint32_t t : star_) {
     if (t != s && wait_[t] != Wait::none) beside_.push_back(t);
@@ -182,21 +184,20 @@ void Slivers::find_beside(Kernel& kernel, std::uint32_t s) {
 
 /// In which it gets a vertex: its own, of a poor one around the off-centre.
 auto Slivers::ball_to_split(const Kernel& kernel, std::uint32_t s) const -> Ball {
-  const auto& corners = kernel.simplices().corners(s);
+  const auto corners = sorted_corners(kernel, s);
+  const auto at = [&](std::size_t i) -> const auto& { return kernel.place(corners[i]); };
   // Nearly in a plane doubles have no digits of its centre, other ones in each order of the
   // corners.
-  std::array<std::size_t, 4> order{0, 1, 2, 3};
-  const auto at = [&](std::size_t i) -> const auto& { return kernel.place(corners[i]); };
-  std::sort(order.begin(), order.end(), [&](auto i, auto k) { return at(i) < at(k); });
-  const auto& [a, b, c] = kFacet<3>[order[0]];
-  const Point<3> q = circumcentre(at(order[0]), at(b), at(a), at(c)).q;
-  const Point<3> centre = plus(at(order[0]), q);
+  const auto [a, b, c] = facet_across<3>(kernel.simplices().corners(s),
+                                         corner_of(kernel.simplices().corners(s), corners[0]));
+  const Point<3> q = circumcentre(at(0), kernel.place(b), kernel.place(a), kernel.place(c)).q;
+  const Point<3> centre = plus(at(0), q);
   const double radius2 = squared(q);
   double shortest2 = std::numeric_limits<double>::infinity();
   Point<3> end{}, middle{};  // of the shortest edge, of several the first by its places
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t k = i + 1; k < 4; ++k) {
-      const Point<3>&p = at(order[i]), &r = at(order[k]);
+      const Point<3>&p = at(i), &r = at(k);
       const double length2 = squared_distance(p, r);
       if (length2 >= shortest2) continue;
       shortest2 = length2;

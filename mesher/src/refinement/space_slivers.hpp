@@ -11,7 +11,7 @@
 // distance, if that is larger. So no floor is less than the least at the beginning, and only as
 // many slivers are split as there is room for. Vertices on features may come nearer, where a
 // sliver's vertex is between features at a small angle; a poor tetrahedron whose shortest edge is
-// below half of its floors stays, so that these do not ask for each other on and on.
+// below an eighth of its floors stays, so that these do not ask for each other on and on.
 //
 // Where features meet at small angles poor tetrahedra stay (ConformingMesh::is_split); these are
 // split, too, beside their off-centre. So what is left is what a wall or a floor protects.
@@ -22,6 +22,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <queue>
@@ -62,7 +63,7 @@ class Slivers {
   [[nodiscard]] bool is_below_floor(const Kernel& kernel, std::uint32_t s, double shortest2) const;
   /// The least floor of its corners, squared.
   [[nodiscard]] double least_floor2(const Kernel& kernel, std::uint32_t s) const;
-  /// Vertices for slivers so far, and slivers that have found no place for one.
+  /// Vertices for slivers so far, and slivers that have no place for one, or have not been tried.
   [[nodiscard]] std::size_t split() const noexcept { return split_; }
   [[nodiscard]] std::size_t left() const noexcept;
 
@@ -85,8 +86,8 @@ class Slivers {
   // (With any that is larger: of scans up to a third more vertices, for as many small angles.)
   static constexpr double kBetter2 = 4;
 
-  // Numbers of simplices are accidental: slivers go by their places.
-  // An entry may be of a simplex that is gone.
+  // Numbers of simplices, and the order of their corners, are accidental: slivers go by places. An
+  // entry may be of a simplex that is gone.
   struct Entry {
     double shortest2;
     Point<3> sum;  // of its corners
@@ -97,6 +98,9 @@ class Slivers {
     friend bool operator==(const Entry&, const Entry&) = default;
   };
 
+  // By their places.
+  [[nodiscard]] static std::array<std::uint32_t, 4> sorted_corners(const Kernel& kernel,
+                                                                   std::uint32_t s);
   [[nodiscard]] static Entry entry_of(const Kernel& kernel, std::uint32_t s);
   void add(const Kernel& kernel, std::uint32_t s);
   [[nodiscard]] Ball ball_to_split(const Kernel& kernel, std::uint32_t s) const;
@@ -115,7 +119,6 @@ class Slivers {
   std::vector<Wait> wait_;      // by simplex
   std::vector<double> floor2_;  // by vertex
   std::priority_queue<Entry> queue_;
-  std::vector<std::uint32_t> left_;
   std::size_t split_ = 0, split_before_ = 0;  // now; when those left were tried again
   int rounds_ = 0;
   double dug_floor2_ = 0;  // of the vertex that dig() has dug; 0: none
@@ -146,7 +149,6 @@ bool Slivers::dig(Kernel& kernel, std::uint32_t s, std::uint32_t v, Fits&& fits)
   }
   if (best_at == nullptr) {
     wait_[s] = Wait::left;
-    left_.push_back(s);
     return false;
   }
   if (best > worst_) dig_at(*best_at);

@@ -156,6 +156,12 @@ struct Polygon {
   return plus(o, scaled(label.distance() / e.length, minus(far, o)));
 }
 
+/// Where the foot of x on the line of an edge is, in fractions of it from a.
+[[nodiscard]] inline double foot_fraction(const Edge& e, const Point<3>& x) {
+  const Point<3> along = minus(e.place_b, e.place_a);
+  return dot(minus(x, e.place_a), along) / squared(along);
+}
+
 /// The roundest place of those in a span of an edge, in fractions of it: its middle, or else at the
 /// coarsest dyadic distance from the nearer end. So edges that share an end are split at the same
 /// distances from it, powers of 2 where they are split the most. Nothing if the span is too short.

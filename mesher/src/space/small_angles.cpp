@@ -21,11 +21,6 @@ constexpr double kTurned = 0.44;
 constexpr double kLeans = 0.7071;
 constexpr double kBesideHinge = 0x1p-30;
 
-// Where the foot of x on the line of e is, as a fraction.
-double foot_fraction(const Edge& e, const Point<3>& x) {
-  const Point<3> along = minus(e.place_b, e.place_a);
-  return dot(minus(x, e.place_a), along) / squared(along);
-}
 Point<3> place_on_line(const Edge& e, double fraction) {
   return plus(e.place_a, scaled(fraction, minus(e.place_b, e.place_a)));
 }

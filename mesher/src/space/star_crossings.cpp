@@ -219,6 +219,17 @@ double StarCrossings::turn(const Beside& a, const Beside& b) const {
   return std::abs(twice) <= 4 * rounding_ * reach_ ? 0 : twice;
 }
 
+/// Where the line crosses a triangle, in fractions of the edge; nothing, if it does not, or is in
+/// its plane.
+std::optional<double> StarCrossings::crossing(const Beside& a, const Beside& b,
+                                              const Beside& c) const {
+  const double ab = turn(a, b), bc = turn(b, c), ca = turn(c, a);
+  if (!(ab >= 0 && bc >= 0 && ca >= 0) && !(ab <= 0 && bc <= 0 && ca <= 0)) return std::nullopt;
+  const double all = ab + bc + ca;
+  if (std::abs(all) <= 16 * rounding_ * reach_) return std::nullopt;
+  return (bc * a.along + ca * b.along + ab * c.along) / all;
+}
+
 /// The face between v and an edge of the link that e pierces, of several the nearest.
 auto StarCrossings::pierced_face(const Edge& e) const -> std::optional<MissingEdge> {
   const Beside& v = self_beside_;
@@ -229,19 +240,15 @@ auto StarCrossings::pierced_face(const Edge& e) const -> std::optional<MissingEd
     const auto [i, j] = edge;
     const Beside &a = beside_[index(i)], &b = beside_[index(j)];
     if ((v.sides & a.sides & b.sides) != 0 || on_[index(i)] != 0 || on_[index(j)] != 0) continue;
-    const double va = turn(v, a), ab = turn(a, b), bv = turn(b, v);
-    if (!(va >= 0 && ab >= 0 && bv >= 0) && !(va <= 0 && ab <= 0 && bv <= 0)) continue;
-    const double all = va + ab + bv;
-    if (std::abs(all) <= 16 * rounding_ * reach_) continue;  // e is in its plane
-    const double at = (ab * v.along + bv * a.along + va * b.along) / all;
-    if (!(at > 0 && at < 1)) continue;
-    const Point<3> x = plus(e.place_a, scaled(at, along));
+    const std::optional<double> at = crossing(v, a, b);
+    if (!at || !(*at > 0 && *at < 1)) continue;
+    const Point<3> x = plus(e.place_a, scaled(*at, along));
     const double d2 = squared_distance(x, cell_.center().p);
     if (d2 > best2 || (d2 == best2 && !is_before(edge, {best->beside[0], best->beside[1]})))
       continue;
     best2 = d2;
     best = MissingEdge{};
-    best->at = at;
+    best->at = *at;
     best->room = std::sqrt(std::min({d2, squared_distance(x, cell_.place(i)),
                                      squared_distance(x, cell_.place(j))})) /
                  e.length;
@@ -307,12 +314,8 @@ bool StarCrossings::is_visible(double towards) const {
     if (!std::all_of(ends.begin(), ends.end(), [&](int i) { return cell_.real(i); })) continue;
     const Beside &a = beside_[index(ends[0])], &b = beside_[index(ends[1])],
                  &c = beside_[index(ends[2])];
-    const double ab = turn(a, b), bc = turn(b, c), ca = turn(c, a);
-    if (!(ab >= 0 && bc >= 0 && ca >= 0) && !(ab <= 0 && bc <= 0 && ca <= 0)) continue;
-    const double all = ab + bc + ca;
-    if (std::abs(all) <= 16 * rounding_ * reach_) continue;
-    const double at = (bc * a.along + ca * b.along + ab * c.along) / all;
-    if ((at - self_beside_.along) * towards > 0) return true;
+    const std::optional<double> at = crossing(a, b, c);
+    if (at && (*at - self_beside_.along) * towards > 0) return true;
   }
   return false;
 }
@@ -460,8 +463,7 @@ Placed StarCrossings::place_near(const Polygon& f, const Point<3>& x) {
   if (e == nullptr) return placed_on(f, x);
   const auto y = place_in_ball(*e, x, room);
   if (y && cell_.cuts(y->p)) return *y;
-  const Point<3> along = minus(e->place_b, e->place_a);
-  const double at = dot(minus(x, e->place_a), along) / squared(along);
+  const double at = foot_fraction(*e, x);
   if (!(at > 0 && at < 1)) return placed_on(f, x);
   const Placed foot = placed_on(*e, label_at(*e, at * e->length));
   return cell_.cuts(foot.p) ? foot : placed_on(f, x);

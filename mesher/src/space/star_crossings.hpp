@@ -103,6 +103,8 @@ class StarCrossings {
   [[nodiscard]] bool are_beside() const;
   [[nodiscard]] bool is_before(const LinkEdge& a, const LinkEdge& b) const noexcept;
   [[nodiscard]] double turn(const Beside& a, const Beside& b) const;
+  [[nodiscard]] std::optional<double> crossing(const Beside& a, const Beside& b,
+                                               const Beside& c) const;
   [[nodiscard]] std::optional<MissingEdge> pierced_face(const Edge& e) const;
   [[nodiscard]] Span piece_at(double at, double room) const;
   [[nodiscard]] std::optional<MissingEdge> missing_from_self(const Edge& e, double towards) const;
