@@ -60,9 +60,13 @@ void add_points(const std::vector<GraphPoint<D>>& points, MeshData<D>& data) {
 namespace {
 
 template <int D>
-RefinedExtent<D> refined(const Graph<D>& graph, Extent extent) {
+RefinedExtent<D> refined(const Graph<D>& graph, Extent extent, RegionAreas areas) {
   RefinedExtent<D> refined{.only_enclosed = extent == Extent::enclosed};
   for (const auto& hole : graph.holes()) refined.holes.push_back(hole.at);
+  if (areas == RegionAreas::ignored) return refined;
+  for (const auto& region : graph.regions()) {
+    if (region.max_measure) refined.regions.push_back({region.at, *region.max_measure});
+  }
   return refined;
 }
 
@@ -97,7 +101,7 @@ Mesh<D> refine(const Graph<D>& graph, const Options<D>& options, Extent extent,
     return refine<D>(places_of(graph), options, settings, ids, stats, control);
   }
   return with_parts(graph, [&](const auto&... parts) {
-    return refine(parts..., options, refined(graph, extent), settings, ids, stats, control);
+    return refine(parts..., options, refined(graph, extent, options.region_areas), settings, ids, stats, control);
   });
 }
 
@@ -109,7 +113,7 @@ Mesh<D> svr(const Graph<D>& graph, const Options<D>& options, Extent extent,
     return svr<D>(places_of(graph), options, settings, ids, stats, control);
   }
   return with_parts(graph, [&](const auto&... parts) {
-    return svr(parts..., options, refined(graph, extent), settings, ids, stats, control);
+    return svr(parts..., options, refined(graph, extent, options.region_areas), settings, ids, stats, control);
   });
 }
 

@@ -40,12 +40,20 @@ bool limits_regions(const Graph<D>& graph, const Options<D>& o) {
   return has_limits(o) && o.extent == Extent::enclosed && has_walls(graph);
 }
 
+template <int D>
+Options<D> with_region_limits(const Graph<D>& graph, Options<D> options) {
+  if (limits_regions(graph, options)) {
+    options.region_limits = region_limits(graph, options, options.extent, options.region_areas);
+  }
+  return options;
+}
+
 // The fastest that knows what is asked for. In the plane refine takes as long as svr, for fewer
 // vertices; in space the triangulation of all points may be large.
 template <int D>
 Algorithm fastest(const Graph<D>& graph, const Options<D>& o) {
   const bool low = has_features(graph) && o.rho < Options<D>{}.rho;
-  if (has_limits(o) || o.region_limits != nullptr || low || o.rule != Rule::radius_edge) {
+  if (low || o.rule != Rule::radius_edge) {
     return Algorithm::gap_balls;
   }
   const bool refines = D == 2 || (!has_features(graph) && are_evenly_spread<D>(places_of(graph)));
@@ -58,7 +66,7 @@ Mesh<D> run(Algorithm algorithm, const Graph<D>& graph, const Options<D>& option
   report.algorithm = algorithm;
   report.refinement.reset();
   if (algorithm == Algorithm::gap_balls) {
-    return mesh_statically(graph, options, &report.stats, control);
+    return mesh_statically(graph, with_region_limits(graph, options), &report.stats, control);
   }
   SvrStats stats;
   SvrStats* const wanted = refinement ? &stats : nullptr;
@@ -134,10 +142,7 @@ Mesh<D> box_mesh(const Graph<D>& graph, const Options<D>& options, RunReport* re
     for (const auto& p : graph.points) detail::check_coordinates(p.at, p.id);
     settled.domain = snapped_domain<D>(places_of(graph));
   }
-  settled.region_limits =  // those of another graph, which a Mesher's options have, do not count
-      limits_regions(graph, settled)
-          ? region_limits(graph, settled, settled.extent, settled.region_areas)
-          : nullptr;
+  settled.region_limits.reset();  // those of a Mesher's options are of another graph
   RunReport made;
   Mesh<D> mesh = settled.algorithm == Algorithm::automatic
                      ? run_fastest(graph, settled, made, control, refinement)

@@ -67,7 +67,7 @@ detail::OnFeatures parts_of(const detail::PlaneConformity& all,
 // Below these only the guard of mesh_statically bounds what vertices on features ask of each other.
 template <int D>
 void require_simple(const Options<D>& options, const std::string& name) {
-  detail::require_no_limits(options, name);
+  detail::require_radius_edge(options, name);
   if (options.rho >= Options<D>().rho) return;
   const char* what = D == 2 ? " of segments needs a rho of 1.4142 or more"
                             : " of segments and polygons needs a rho of 2 or more";
@@ -84,13 +84,17 @@ Mesh<D> run(const Checked& checked, const Options<D>& options, const RefinedExte
   settings.thorough = false;
   settings.only_enclosed = extent.only_enclosed;
   settings.holes = extent.holes;
+  settings.regions = extent.regions;
+  for (const auto& region : extent.regions) {
+    settings.least_limit = std::min(settings.least_limit, region.max_measure);
+  }
   std::vector<Point<D>> places;
   points_of(checked.store()).for_each([&](const detail::Vertex<D>& v) {
     if (!v.input) return;
     places.push_back(v.p);
     settings.handles.push_back(v.self);
   });
-  detail::set_common(settings, options, stats != nullptr, control);
+  detail::set_common(settings, options, checked.box(), stats != nullptr, control);
   return detail::refined_in<Algorithm, D>(
       checked.box(), places, settings, [&](const Algorithm& algorithm) {
         if constexpr (D == 3) algorithm.conformity().require_whole();

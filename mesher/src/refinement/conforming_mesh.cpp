@@ -23,7 +23,8 @@ ConformingMesh<D>::ConformingMesh(const MeshBox<D>& box, const Settings& setting
       handles_(settings.handles),
       conformity_(*settings.store, kernel_),
       only_enclosed_(settings.only_enclosed),
-      holes_(settings.holes) {}
+      holes_(settings.holes),
+      regions_(settings.regions) {}
 
 template <int D>
 std::uint32_t ConformingMesh<D>::add_place(const Placed& place, VertexKind kind,
@@ -111,11 +112,47 @@ void ConformingMesh<D>::finish() {
 /// Whether what is outside is not wanted. Requires: as is_split().
 template <int D>
 bool ConformingMesh<D>::has_outside() {
-  if (only_enclosed_ && !std::exchange(has_regions_, true)) {
-    only_enclosed_ = conformity_.find_regions(holes_, kNearWall * this->box_.side);
-    if (!only_enclosed_) this->require_box(kCoarseSteps);
-  }
+  if (only_enclosed_) find_regions();
   return only_enclosed_;
+}
+
+template <int D>
+void ConformingMesh<D>::find_regions() {
+  if (std::exchange(has_regions_, true)) return;
+  const double near = kNearWall * this->box_.side;
+  const bool encloses = conformity_.find_regions(holes_, near);
+  if (std::exchange(only_enclosed_, only_enclosed_ && encloses) && !encloses) {
+    this->require_box(kCoarseSteps);
+  }
+  std::vector<Point<D>> places;
+  for (const LimitedRegion<D>& region : regions_) places.push_back(region.at);
+  conformity_.name_regions(places, near, !only_enclosed_);
+}
+
+template <int D>
+double ConformingMesh<D>::limit_in_region(std::uint32_t s, double measure) {
+  if (only_enclosed_ || !regions_.empty()) find_regions();
+  if (only_enclosed_ && conformity_.is_outside(s)) return std::numeric_limits<double>::infinity();
+  if (regions_.empty()) return measure;
+  const std::uint32_t region = conformity_.region(s);
+  return region == kNone ? measure : std::min(measure, regions_[region].max_measure);
+}
+
+template <int D>
+std::uint32_t ConformingMesh<D>::take_large() {
+  return Base::take_large_if(
+      [&](std::uint32_t s, double measure) { return limit_in_region(s, measure); });
+}
+
+template <int D>
+std::optional<std::uint32_t> ConformingMesh<D>::dig_on_lattice(std::uint32_t s) {
+  return Base::dig_on_lattice_if(
+      s,
+      [&](const Point<D>& p) {
+        return add_place({p, {}}, VertexKind::steiner);
+      },
+      [&] { drop_place(); },
+      [&](std::uint32_t v) { return !conformity_.encroaches_on_features(v); });
 }
 
 /// Its shortest edge is as short as the angle of features makes it. In the plane the simplex is on

@@ -25,6 +25,7 @@ class ConformingMesh : public RefinedMesh<D> {
     std::vector<VertexHandle> handles{};        // those of the points
     bool only_enclosed = false;                 // else all of the box
     std::vector<Point<D>> holes{};
+    std::vector<LimitedRegion<D>> regions{};
   };
 
   [[nodiscard]] const Conforms& conformity() const noexcept { return conformity_; }
@@ -44,6 +45,11 @@ class ConformingMesh : public RefinedMesh<D> {
   /// Whether a poor simplex is split: it is in what is wanted, and not poor by a small angle.
   /// Requires: conformity_.next() has returned nothing, and nothing was inserted since.
   [[nodiscard]] bool is_split(std::uint32_t s);
+  /// As of points: nothing is too large that is outside of what is wanted, and regions have limits
+  /// of their own. Requires: as is_split().
+  [[nodiscard]] std::uint32_t take_large();
+  /// As of points, outside of the balls of pieces and tiles. Requires: as is_split().
+  [[nodiscard]] std::optional<std::uint32_t> dig_on_lattice(std::uint32_t s);
   /// As of points, but pieces and tiles stay. Where they leave no place, the longest piece on the
   /// sliver is split, if it is not shorter than the floors allow: often it is where polygons meet
   /// at nearly 180 degrees. (Not of poor slivers: in a fan of polygons that goes on and on.)
@@ -62,8 +68,12 @@ class ConformingMesh : public RefinedMesh<D> {
   [[nodiscard]] bool has_outside();
   [[nodiscard]] bool stays(std::uint32_t s) const;
 
+  [[nodiscard]] double limit_in_region(std::uint32_t s, double measure);
+  void find_regions();
+
   bool only_enclosed_, has_regions_ = false;
   std::vector<Point<D>> holes_;
+  std::vector<LimitedRegion<D>> regions_;
   std::vector<std::uint32_t> star_;  // scratch
 };
 

@@ -122,20 +122,34 @@ auto Conformity::wanted(const Placed& place, std::uint32_t beside, const Placed&
   return {place, beside, otherwise};
 }
 
-bool Conformity::yields(std::uint32_t v) {
-  if (yields_to_edges(v)) return true;
-  bool yields = false;
+/// Calls visit(tile) for those of what is dug with v in their balls, some twice.
+template <class Visit>
+void Conformity::visit_tiles_around(std::uint32_t v, Visit&& visit) const {
   for (const std::uint32_t s : kernel_.doomed()) {
     visit_tiles_of(s, [&](std::uint32_t i, std::uint32_t) {
       const Tiles::Tile& tile = tiles_[i];
       const Point<3> centre = centre_of(tile.face, polygon(tile.polygon));
       const double r2 = squared_distance(centre, place(tile.face[0]));
-      if (!detail::is_in_ball(centre, r2, place(v)) || !place_for(tile, place(v))) return;
-      want_tile(i, place(v));
-      yields = true;
+      if (detail::is_in_ball(centre, r2, place(v))) visit(i);
     });
   }
+}
+
+bool Conformity::yields(std::uint32_t v) {
+  if (yields_to_edges(v)) return true;
+  bool yields = false;
+  visit_tiles_around(v, [&](std::uint32_t i) {
+    if (!place_for(tiles_[i], place(v))) return;
+    want_tile(i, place(v));
+    yields = true;
+  });
   return yields;
+}
+
+bool Conformity::encroaches_on_features(std::uint32_t v) {
+  bool encroaches = encroaches_on_edges(v);
+  if (!encroaches) visit_tiles_around(v, [&](std::uint32_t) { encroaches = true; });
+  return encroaches;
 }
 
 bool Conformity::is_disturbed() const {

@@ -76,6 +76,8 @@ class Conformity : public LineConformity<3, Conformity> {
   // --- Of a vertex that is dug
   /// Whether it encroaches on pieces, or on tiles: these are wanted then.
   [[nodiscard]] bool yields(std::uint32_t v);
+  /// Whether it is in the ball of a piece or a tile.
+  [[nodiscard]] bool encroaches_on_features(std::uint32_t v);
   /// Whether pieces or tiles would no longer be there.
   [[nodiscard]] bool is_disturbed() const;
   /// Before the hole is filled.
@@ -136,6 +138,8 @@ class Conformity : public LineConformity<3, Conformity> {
   void erase(std::uint32_t tile);
   template <class Visit>
   void visit_tiles_of(std::uint32_t s, Visit&& visit) const;
+  template <class Visit>
+  void visit_tiles_around(std::uint32_t v, Visit&& visit) const;
   [[nodiscard]] bool is_wall(std::uint32_t s, std::uint32_t i) const;
 
   // --- Gaps

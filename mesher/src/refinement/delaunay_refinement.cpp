@@ -28,6 +28,8 @@ void DelaunayRefinement<D, Queue, Mesh>::run() {
     if (!queue_.empty()) {
       const Entry poor = queue_.delete_min();
       if (age_[poor.simplex] == poor.age) split(poor.simplex);
+    } else if (const std::uint32_t large = this->take_large(); large != kNone) {
+      split_large(large);
     } else if (const auto v = this->dig_sliver()) {
       fill(*v);
     } else {
@@ -79,7 +81,7 @@ std::uint32_t DelaunayRefinement<D, Queue, Mesh>::add(const Point<D>& p, VertexK
 template <int D, template <class> class Queue, class Mesh>
 void DelaunayRefinement<D, Queue, Mesh>::look_at(std::uint32_t s, const Shape& shape) {
   if (this->is_poor(shape)) queue_.insert(key_of(shape), {s, age_[s]});
-  this->look_for_sliver(s);
+  this->look_for_others(s);
 }
 
 /// Where doubles end, all are alike.
@@ -95,6 +97,17 @@ void DelaunayRefinement<D, Queue, Mesh>::split(std::uint32_t s) {
   if constexpr (kConforms) {
     if (!this->is_split(s)) return;
   }
+  split_at_centre(s);
+}
+
+template <int D, template <class> class Queue, class Mesh>
+void DelaunayRefinement<D, Queue, Mesh>::split_large(std::uint32_t s) {
+  if (const auto v = this->dig_on_lattice(s)) return fill(*v);
+  split_at_centre(s);
+}
+
+template <int D, template <class> class Queue, class Mesh>
+void DelaunayRefinement<D, Queue, Mesh>::split_at_centre(std::uint32_t s) {
   const Centre<D> centre = this->centre_of(s);
   centres_.require_apart(kernel_, s, centre);
   const VertexKind kind = centre.on_side ? VertexKind::boundary : VertexKind::steiner;

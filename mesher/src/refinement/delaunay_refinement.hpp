@@ -54,6 +54,8 @@ class DelaunayRefinement : public Mesh {
   void look_at(std::uint32_t s, const Shape& shape);
   [[nodiscard]] double key_of(const Shape& shape) const noexcept;
   void split(std::uint32_t s);
+  void split_large(std::uint32_t s);
+  void split_at_centre(std::uint32_t s);
   void fill(std::uint32_t v);
 
   std::span<const Point<D>> points_;

@@ -1,4 +1,5 @@
-// Which simplices walls enclose, less holes, in a triangulation that is refined.
+// Which simplices walls enclose, less holes, in a triangulation that is refined, and which are in
+// regions that are named by a place.
 //
 // Walls are facets, which stay where they are: only what is new has to be looked at, and it is
 // where what was there before is, on the same side of them.
@@ -27,23 +28,39 @@ class Enclosed {
   /// within `near` of a wall. Returns: whether there is anything else.
   template <class IsWall>
   bool find(std::span<const Point<D>> holes, double near, IsWall&& is_wall);
+  /// Names what no walls part from places[k], unless that is within `near` of a wall, by k; the
+  /// last one counts. `outside_too`: else what is outside stays so. Requires: find().
+  template <class IsWall>
+  void name_regions(std::span<const Point<D>> places, double near, bool outside_too,
+                    IsWall&& is_wall);
   /// After an insertion.
   void forget_made() {
-    region_.resize(kernel_.simplices().places(), Region::unknown);
-    for (const std::uint32_t s : kernel_.made()) region_[s] = Region::unknown;
+    region_.resize(kernel_.simplices().places(), kUnknown);
+    for (const std::uint32_t s : kernel_.made()) region_[s] = kUnknown;
   }
   /// Requires: find(). Cost: amortized O(1) for each that was made.
   template <class IsWall>
-  [[nodiscard]] bool is_outside(std::uint32_t s, IsWall&& is_wall);
+  [[nodiscard]] bool is_outside(std::uint32_t s, IsWall&& is_wall) {
+    return region(s, is_wall) == kOutside;
+  }
+  /// The k of its region; kNone: it has no name. Requires and cost: as is_outside().
+  template <class IsWall>
+  [[nodiscard]] std::uint32_t name(std::uint32_t s, IsWall&& is_wall) {
+    const Region found = region(s, is_wall);
+    return found < kNamed ? kNone : found - kNamed;
+  }
 
  private:
-  enum class Region : std::uint8_t { unknown, inside, outside };
+  using Region = std::uint32_t;
+  static constexpr Region kUnknown = 0, kInside = 1, kOutside = 2, kNamed = 3;  // and on
 
   template <class IsWall>
   [[nodiscard]] bool is_near_wall(const Point<D>& p, std::uint32_t s, double near,
                                   IsWall&& is_wall) const;
   template <class IsWall>
-  void flood_outside(std::uint32_t from, IsWall&& is_wall);
+  void flood(std::uint32_t from, Region region, IsWall&& is_wall);
+  template <class IsWall>
+  [[nodiscard]] Region region(std::uint32_t s, IsWall&& is_wall);
   [[nodiscard]] std::uint32_t across(std::uint32_t s, std::uint32_t i) const noexcept {
     return kernel_.simplices().across(s)[i] >> 2;
   }
@@ -56,21 +73,21 @@ template <int D>
 template <class IsWall>
 bool Enclosed<D>::find(std::span<const Point<D>> holes, double near, IsWall&& is_wall) {
   const auto& simplices = kernel_.simplices();
-  region_.assign(simplices.places(), Region::unknown);
+  region_.assign(simplices.places(), kUnknown);
   std::uint32_t at = kNone;
   for (std::uint32_t s = 0; s < simplices.places(); ++s) {
     if (!simplices.alive(s)) continue;
     at = s;
-    if (kernel_.is_ghost(s)) flood_outside(s, is_wall);
+    if (kernel_.is_ghost(s)) flood(s, kOutside, is_wall);
   }
   for (const Point<D>& p : holes) {
     at = kernel_.walk(p, at);
-    if (!is_near_wall(p, at, near, is_wall)) flood_outside(at, is_wall);
+    if (!is_near_wall(p, at, near, is_wall)) flood(at, kOutside, is_wall);
   }
   bool encloses = false;
   for (std::uint32_t s = 0; s < simplices.places(); ++s) {
-    if (!simplices.alive(s) || region_[s] != Region::unknown) continue;
-    region_[s] = Region::inside;
+    if (!simplices.alive(s) || region_[s] != kUnknown) continue;
+    region_[s] = kInside;
     encloses = true;
   }
   return encloses;
@@ -96,16 +113,30 @@ bool Enclosed<D>::is_near_wall(const Point<D>& p, std::uint32_t s, double near,
 
 template <int D>
 template <class IsWall>
-void Enclosed<D>::flood_outside(std::uint32_t from, IsWall&& is_wall) {
-  if (std::exchange(region_[from], Region::outside) == Region::outside) return;
+void Enclosed<D>::name_regions(std::span<const Point<D>> places, double near, bool outside_too,
+                               IsWall&& is_wall) {
+  std::uint32_t at = 0;
+  while (!kernel_.simplices().alive(at)) ++at;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    at = kernel_.walk(places[k], at);
+    if (is_near_wall(places[k], at, near, is_wall)) continue;
+    if (region_[at] == kOutside && !outside_too) continue;
+    flood(at, kNamed + static_cast<Region>(k), is_wall);
+  }
+}
+
+template <int D>
+template <class IsWall>
+void Enclosed<D>::flood(std::uint32_t from, Region region, IsWall&& is_wall) {
+  if (std::exchange(region_[from], region) == region) return;
   std::vector<std::uint32_t> all{from};
   while (!all.empty()) {
     const std::uint32_t s = all.back();
     all.pop_back();
     for (std::uint32_t i = 0; i <= D; ++i) {
       const std::uint32_t other = across(s, i);
-      if (region_[other] == Region::outside || is_wall(s, i)) continue;
-      region_[other] = Region::outside;
+      if (region_[other] == region || is_wall(s, i)) continue;
+      region_[other] = region;
       all.push_back(other);
     }
   }
@@ -114,26 +145,26 @@ void Enclosed<D>::flood_outside(std::uint32_t from, IsWall&& is_wall) {
 /// Unknown ones are joined to known ones around them; those that walls alone are around are inside.
 template <int D>
 template <class IsWall>
-bool Enclosed<D>::is_outside(std::uint32_t s, IsWall&& is_wall) {
-  if (region_[s] != Region::unknown) return region_[s] == Region::outside;
+auto Enclosed<D>::region(std::uint32_t s, IsWall&& is_wall) -> Region {
+  if (region_[s] != kUnknown) return region_[s];
   std::vector<std::uint32_t> all{s};
-  region_[s] = Region::inside;
-  bool outside = false;
+  region_[s] = kInside;
+  Region found = kInside;
   for (std::size_t k = 0; k < all.size(); ++k) {
     for (std::uint32_t i = 0; i <= D; ++i) {
       const std::uint32_t other = across(all[k], i);
       if (is_wall(all[k], i)) continue;
-      if (region_[other] == Region::unknown) {
-        region_[other] = Region::inside;
+      if (region_[other] == kUnknown) {
+        region_[other] = kInside;
         all.push_back(other);
       }
-      outside = outside || region_[other] == Region::outside;
+      if (region_[other] != kInside) found = region_[other];
     }
   }
-  if (outside) {
-    for (const std::uint32_t t : all) region_[t] = Region::outside;
+  if (found != kInside) {
+    for (const std::uint32_t t : all) region_[t] = found;
   }
-  return outside;
+  return found;
 }
 
 }  // namespace mesher::detail

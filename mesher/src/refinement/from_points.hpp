@@ -22,13 +22,9 @@ namespace mesher::detail {
 
 /// `name`: of the algorithm.
 template <int D>
-void require_no_limits(const Options<D>& options, const std::string& name) {
-  const auto refuse = [&](const char* what) { throw Error(ErrorCode::bad_option, name + what); };
-  if (options.rule != Rule::radius_edge) refuse(" needs the rule radius-edge");
-  if (options.max_measure != 0 || options.sizes != nullptr || !options.box_limits.empty() ||
-      options.region_limits != nullptr) {
-    refuse(" knows no limits of size");
-  }
+void require_radius_edge(const Options<D>& options, const std::string& name) {
+  if (options.rule == Rule::radius_edge) return;
+  throw Error(ErrorCode::bad_option, name + " needs the rule radius-edge");
 }
 
 inline void require_k(double k) {
@@ -51,12 +47,14 @@ template <int D, class Algorithm>
   return canonical<D>(places, std::span(algorithm.kinds()).subspan(1), 1, on, for_each_simplex);
 }
 
-/// What all refinements are told alike.
+/// What all refinements are told alike. Requires: settings.least_limit is set.
 template <int D, class Settings>
-void set_common(Settings& settings, const Options<D>& options, bool follow_degrees,
-                const RunControl& control) {
+void set_common(Settings& settings, const Options<D>& options, const MeshBox<D>& box,
+                bool follow_degrees, const RunControl& control) {
   settings.rho = options.rho;
   if constexpr (D == 3) settings.min_dihedral = options.min_dihedral;
+  const auto limits = std::make_shared<Limits<D>>(options, box);
+  if (limits->any() || settings.least_limit < Limits<D>::kNone) settings.limits = limits;
   settings.most_vertices = options.max_vertices;
   settings.follow_degrees = follow_degrees;
   if (!watches(control)) return;
@@ -112,7 +110,7 @@ template <template <int> class Algorithm, int D, class Stats>
                                   const std::vector<PointId>& ids, Stats* stats,
                                   const RunControl& control) {
   const MeshBox<D> box = mesh_box(options);
-  set_common(settings, options, stats != nullptr, control);
+  set_common(settings, options, box, stats != nullptr, control);
   const std::vector<Point<D>> sorted = in_distinct_order<D>(points, ids, options.domain, box);
   return refined_in<Algorithm<D>, D>(box, sorted, settings, [&](const Algorithm<D>& algorithm) {
     Mesh<D> mesh = mesh_of<D>(algorithm);

@@ -63,10 +63,28 @@ class LineConformity {
     return yields;
   }
 
+  /// Of a vertex that is dug: whether it is in the ball of a piece.
+  [[nodiscard]] bool encroaches_on_edges(std::uint32_t v) {
+    bool encroaches = false;
+    self().visit_pieces_dug([&](std::uint32_t piece) {
+      encroaches = encroaches || self().encroaches(piece, v);
+    });
+    return encroaches;
+  }
+
   /// Finds what walls enclose, less what holes are in that are not within `near` of walls; whether
   /// that is anything. Requires: as is_outside().
   bool find_regions(std::span<const Point<D>> holes, double near) {
     return enclosed_.find(holes, near, [&](auto s, auto i) { return self().is_wall(s, i); });
+  }
+  /// As Enclosed::name_regions(). Requires: as is_outside().
+  void name_regions(std::span<const Point<D>> places, double near, bool outside_too) {
+    enclosed_.name_regions(places, near, outside_too,
+                           [&](auto s, auto i) { return self().is_wall(s, i); });
+  }
+  /// As Enclosed::name(). Requires and cost: as is_outside().
+  [[nodiscard]] std::uint32_t region(std::uint32_t s) {
+    return enclosed_.name(s, [&](auto t, auto i) { return self().is_wall(t, i); });
   }
   /// Whether no walls enclose s, or it is in a hole. Requires: next() has returned nothing, and
   /// nothing was inserted since; find_regions(). Cost: amortized O(1) for each that was made.

@@ -53,6 +53,7 @@ class PlaneConformity : public LineConformity<2, PlaneConformity> {
 
   // --- Of a vertex that is dug
   [[nodiscard]] bool yields(std::uint32_t v) { return yields_to_edges(v); }
+  [[nodiscard]] bool encroaches_on_features(std::uint32_t v) { return encroaches_on_edges(v); }
   /// Before the hole is filled.
   void before_fill(std::uint32_t v);
   /// Afterwards.

@@ -13,7 +13,7 @@ Mesh<D> refine(const std::vector<Point<D>>& points, const Options<D>& options,
   SAC_EXPECTS(ids.empty() || ids.size() == points.size());
   predicates::self_test();
   detail::require_unstopped(control);
-  detail::require_no_limits(options, "refine");
+  detail::require_radius_edge(options, "refine");
   if (settings.strict) {
     return detail::mesh_points<detail::StrictRefinement, D>(points, options, {{}, settings.order},
                                                             ids, stats, control);

@@ -37,12 +37,21 @@ struct RefineSettings {
 template <int D>
 [[nodiscard]] bool are_evenly_spread(const std::vector<Point<D>>& points);
 
+/// A region, by a place in it, with a limit of size of its own.
+template <int D>
+struct LimitedRegion {
+  Point<D> at{};
+  double max_measure = 0;
+};
+
 /// What of a graph or a complex is refined: all, or what segments (in space polygons) enclose, if
-/// they enclose anything, less the holes at these places. Other simplices may be poor.
+/// they enclose anything, less the holes at these places. Other simplices may be poor, and of any
+/// size.
 template <int D>
 struct RefinedExtent {
   bool only_enclosed = false;
   std::vector<Point<D>> holes{};  ///< one on a segment, in space on a polygon, is none
+  std::vector<LimitedRegion<D>> regions{};  ///< the same holds; of several in one the last counts
 };
 
 /// The mesh. `options`: domain, rho and max_vertices count; `ids`: as many as points, only used in

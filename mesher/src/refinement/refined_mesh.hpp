@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -14,6 +16,7 @@
 #include "delaunay/kernel.hpp"
 #include "geometry/grid.hpp"
 #include "refinement/centres.hpp"
+#include "refinement/large_simplices.hpp"
 #include "refinement/refine.hpp"
 #include "refinement/space_slivers.hpp"
 
@@ -45,6 +48,8 @@ class RefinedMesh {
     double rho = 2;
     double min_dihedral = 0;        // in degrees, in space; 0: any
     bool thorough = true;           // with slivers: see there
+    std::shared_ptr<const Limits<D>> limits{};  // null: there are none
+    double least_limit = std::numeric_limits<double>::infinity();  // of regions
     std::size_t most_vertices = 0;  // 0: any number
     bool follow_degrees = false;
     int box_steps = 0;                         // along its edges; 0: the grid of gap balls
@@ -85,8 +90,9 @@ class RefinedMesh {
     if (shape.radius2 > worst2_ * shape.shortest2) worst2_ = shape.radius2 / shape.shortest2;
     return shape.radius2 > rho2_ * shape.shortest2;
   }
-  /// Of a simplex that is new.
-  void look_for_sliver([[maybe_unused]] std::uint32_t s) {
+  /// Of a simplex that is new: whether it is large, or a sliver.
+  void look_for_others(std::uint32_t s) {
+    if (large_.started()) large_.look_at(kernel_, s);
     if constexpr (D == 3) {
       if (slivers_.started()) slivers_.look_at(kernel_, kinds_, s);
     }
@@ -99,6 +105,29 @@ class RefinedMesh {
     }
     return false;
   }
+  /// The next simplex that is too large; kNone: there is none. Requires: no simplex is poor.
+  [[nodiscard]] std::uint32_t take_large() {
+    return take_large_if([](std::uint32_t, double measure) { return measure; });
+  }
+  /// The same with limits of its own: see LargeSimplices::take().
+  template <class Limit>
+  [[nodiscard]] std::uint32_t take_large_if(Limit&& limit) {
+    if (!large_.any()) return kNone;
+    if (!large_.started()) large_.start(kernel_);
+    return large_.take(kernel_, limit);
+  }
+  /// Digs a point of the lattice that splits a simplex, which take_large() has returned; nothing:
+  /// none suits.
+  [[nodiscard]] std::optional<std::uint32_t> dig_on_lattice(std::uint32_t s) {
+    return dig_on_lattice_if(s, [&](const Point<D>& p) { return add_place(p, VertexKind::steiner); },
+                             [&] { drop_place(); }, [](std::uint32_t) { return true; });
+  }
+  /// The same, where fits(v). `add(p)` and `drop()`: of a place.
+  template <class Add, class Drop, class Fits>
+  [[nodiscard]] std::optional<std::uint32_t> dig_on_lattice_if(std::uint32_t s, Add&& add,
+                                                               Drop&& drop, Fits&& fits);
+  /// A simplex that was taken waits again.
+  void put_back_large(std::uint32_t s) { large_.look_at(kernel_, s); }
   /// Digs a vertex that splits a sliver; nothing: there is none that one will split. Requires: no
   /// simplex is poor.
   [[nodiscard]] std::optional<std::uint32_t> dig_sliver() {
@@ -122,6 +151,7 @@ class RefinedMesh {
   /// Of a vertex that is dug.
   void before_fill([[maybe_unused]] std::uint32_t v) {
     count_degrees(kernel_.doomed(), -1);
+    if (large_.started()) large_.before_fill(kernel_);
     if constexpr (D == 3) {
       if (slivers_.started()) slivers_.before_fill(kernel_, v);
     }
@@ -152,6 +182,7 @@ class RefinedMesh {
   // To split a sliver takes as long as so many other steps, or longer.
   static constexpr std::size_t kSliverTakes = 16;
 
+  LargeSimplices<D> large_;
   std::size_t taken_ = 0;  // slivers
   std::conditional_t<D == 3, Slivers, std::monostate> slivers_;
   Settings settings_;
@@ -167,6 +198,22 @@ void RefinedMesh<D>::look_at_all(Look&& look) {
     count_degrees(std::span(&s, 1), 1);
     look(s, shape);
   });
+}
+
+template <int D>
+template <class Add, class Drop, class Fits>
+std::optional<std::uint32_t> RefinedMesh<D>::dig_on_lattice_if(std::uint32_t s, Add&& add,
+                                                               Drop&& drop, Fits&& fits) {
+  for (const Point<D>& p : large_.places(kernel_, s)) {
+    const std::uint32_t v = add(p);
+    if (kernel_.conflicts(s, p)) {
+      kernel_.dig(v, s);
+      if (large_.is_clear(kernel_, v) && fits(v)) return v;
+      kernel_.undo_dig();
+    }
+    drop();
+  }
+  return std::nullopt;
 }
 
 template <int D>

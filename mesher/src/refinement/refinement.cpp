@@ -46,6 +46,8 @@ void Refinement<D, Mesh, Location>::run() {
       const std::uint32_t moderate = queue_.take_moderate();
       if (moderate != kNone) {
         split(moderate);
+      } else if (const std::uint32_t large = this->take_large(); large != kNone) {
+        split_large(large);
       } else if (const auto sliver = this->dig_sliver()) {
         location_.add_vertex();
         insert_dug(*sliver, {});
@@ -121,7 +123,7 @@ void Refinement<D, Mesh, Location>::add_first_point() {
 
 template <int D, class Mesh, class Location>
 void Refinement<D, Mesh, Location>::look_at(std::uint32_t s, const Shape& shape) {
-  this->look_for_sliver(s);
+  this->look_for_others(s);
   if (!this->is_poor(shape)) return;
   const bool skinny = shape.radius2 > skinny2_ * shape.shortest2;
   queue_.add(s, skinny ? WorkQueue::Wait::skinny : WorkQueue::Wait::moderately_skinny);
@@ -135,6 +137,20 @@ void Refinement<D, Mesh, Location>::split(std::uint32_t s) {
   if constexpr (kConforms) {
     if (has_started_ && !this->is_split(s)) return;
   }
+  split_at_centre(s);
+}
+
+template <int D, class Mesh, class Location>
+void Refinement<D, Mesh, Location>::split_large(std::uint32_t s) {
+  if (const auto v = this->dig_on_lattice(s)) {
+    location_.add_vertex();
+    return insert_dug(*v, {});
+  }
+  split_at_centre(s);
+}
+
+template <int D, class Mesh, class Location>
+void Refinement<D, Mesh, Location>::split_at_centre(std::uint32_t s) {
   const Centre<D> centre = this->centre_of(s);
   const bool warps = location_.left() != 0 && !centre.on_side;
   if (warps) {

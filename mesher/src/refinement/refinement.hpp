@@ -59,6 +59,8 @@ class Refinement : public Mesh {
   void look_at(std::uint32_t s, const Shape& shape);
 
   void split(std::uint32_t s);
+  void split_large(std::uint32_t s);
+  void split_at_centre(std::uint32_t s);
   void split_crowded(std::uint32_t v);
   [[nodiscard]] std::uint32_t largest_in_star(std::uint32_t v) const;
   [[nodiscard]] bool is_deep_in(std::uint32_t s, const Point<D>& p, std::uint32_t v) const;

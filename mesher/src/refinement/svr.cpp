@@ -27,7 +27,7 @@ Mesh<D> svr(const std::vector<Point<D>>& points, const Options<D>& options,
   predicates::self_test();
   detail::require_unstopped(control);
   detail::require_k(settings.k);
-  detail::require_no_limits(options, "svr");
+  detail::require_radius_edge(options, "svr");
   const auto by = [&]<class Location>() {
     return detail::mesh_points<With<Location>::template Algorithm, D>(
         points, options, {{}, settings.k}, ids, stats, control);

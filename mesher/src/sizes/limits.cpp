@@ -157,6 +157,26 @@ double Limits<D>::pitch_for(const Look& look) const {
   return look.even ? even_pitch(s) : band_pitch(s);
 }
 
+template <int D>
+double Limits<D>::pitch_for_measure(const Point<D>& p, double measure) const {
+  const Look there = look(p);
+  return measure == there.measure ? pitch_for(there) : pitch_for({measure, 0, true});
+}
+
+template <int D>
+double Limits<D>::least_measure() const {
+  double least = kNone;
+  const auto take = [&](double measure) { least = std::min(least, measure); };
+  for (const Part& part : parts_) {
+    take(part.measure);
+    if (part.sizes != nullptr) take(measure_of_size<D>(part.sizes->range(part.box).least));
+  }
+  if (regions_ != nullptr) {
+    for (const double measure : regions_->measures()) take(measure);
+  }
+  return least;
+}
+
 // Requires: a finite spacing.
 template <int D>
 void Limits<D>::require_not_small(double spacing) const {

@@ -1,0 +1,123 @@
+// Measures of simplices, and lattices.
+#include "refinement/large_simplices.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/box.hpp"
+#include "geometry/centroid.hpp"
+#include "geometry/plane_vectors.hpp"
+#include "geometry/space_vectors.hpp"
+
+namespace mesher::detail {
+
+namespace {
+
+// Of a lattice's points from all vertices, in pitches. In the lattice it is sqrt(3) / 2 or more.
+constexpr double kFromVertices = 0.6;
+// From the centre of a ball, in its radius: so much is left to the vertices.
+constexpr double kNearCentre = 0.75;
+constexpr std::size_t kMostPlaces = 4;
+
+double measure(const CornersOf<2>& p) {
+  const Point<2> ab = minus(p[1], p[0]), ac = minus(p[2], p[0]);
+  return std::abs(ab[0] * ac[1] - ab[1] * ac[0]) / 2;
+}
+double measure(const CornersOf<3>& p) {
+  return std::abs(dot(minus(p[1], p[0]), cross(minus(p[2], p[0]), minus(p[3], p[0])))) / 6;
+}
+
+template <int D, class Kernel>
+CornersOf<D> corners_of(const Kernel& kernel, std::uint32_t s) {
+  CornersOf<D> places;
+  const auto& corners = kernel.simplices().corners(s);
+  for (std::size_t i = 0; i <= D; ++i) places[i] = kernel.place(corners[i]);
+  return places;
+}
+
+}  // namespace
+
+template <int D>
+LargeSimplices<D>::LargeSimplices(std::shared_ptr<const Limits<D>> limits, double least)
+    : limits_(std::move(limits)) {
+  if (limits_ != nullptr) least_ = std::min(least, limits_->least_measure());
+}
+
+template <int D>
+void LargeSimplices<D>::start(const Kernel& kernel) {
+  started_ = true;
+  const auto& simplices = kernel.simplices();
+  for (std::uint32_t s = 0; s < simplices.places(); ++s) {
+    if (simplices.alive(s)) look_at(kernel, s);
+  }
+}
+
+template <int D>
+double LargeSimplices<D>::measure_of(const Kernel& kernel, std::uint32_t s) {
+  return measure(corners_of<D>(kernel, s));
+}
+template <int D>
+Point<D> LargeSimplices<D>::centroid_of(const Kernel& kernel, std::uint32_t s) {
+  return centroid(corners_of<D>(kernel, s));
+}
+
+template <int D>
+void LargeSimplices<D>::look_at(const Kernel& kernel, std::uint32_t s) {
+  if (s >= age_.size()) age_.resize(kernel.simplices().places());
+  if (kernel.is_ghost(s)) return;
+  const double own = measure_of(kernel, s);
+  if (own > least_) queue_.insert(1 / own, {s, age_[s]});
+}
+
+/// By their distance from its centre.
+template <int D>
+const std::vector<Point<D>>& LargeSimplices<D>::places(const Kernel& kernel, std::uint32_t s) {
+  places_.clear();
+  found_.clear();
+  pitch_ = limits_->pitch_for_measure(centroid_of(kernel, s), limit_);
+  if (!(pitch_ < Limits<D>::kNone)) return places_;
+  const CornersOf<D> corners = corners_of<D>(kernel, s);
+  const Point<D>& centre = kernel.simplices().ball(s).centre;
+  const double radius2 = squared_distance(centre, corners[0]);
+  const double clear2 = kFromVertices * kFromVertices * pitch_ * pitch_;
+  const double most2 = kNearCentre * kNearCentre * radius2;
+  const double near = std::min(kNearCentre * std::sqrt(radius2), pitch_);
+  const Lattice<D> lattice(pitch_);
+  lattice.visit_in(around(centre, near), [&](const auto& node) {
+    const Point<D> p = lattice.place(node);
+    const double distance2 = squared_distance(p, centre);
+    const bool is_apart = std::all_of(corners.begin(), corners.end(), [&](const Point<D>& q) {
+      return squared_distance(p, q) >= clear2;
+    });
+    const bool is_limited = limits_->nearest_in_domain(p) == p;
+    if (distance2 <= most2 && is_apart && is_limited) found_.push_back({distance2, p});
+    return false;
+  });
+  const std::size_t count = std::min(found_.size(), kMostPlaces);
+  std::partial_sort(found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(count),
+                    found_.end(), [](const Place& p, const Place& q) {
+                      return p.distance2 != q.distance2 ? p.distance2 < q.distance2 : p.at < q.at;
+                    });
+  for (std::size_t i = 0; i < count; ++i) places_.push_back(found_[i].at);
+  return places_;
+}
+
+template <int D>
+bool LargeSimplices<D>::is_clear(const Kernel& kernel, std::uint32_t v) const {
+  const double clear2 = kFromVertices * kFromVertices * pitch_ * pitch_;
+  bool is_clear = true;
+  kernel.for_each_in_link([&](std::uint32_t w) {
+    if (w != kInfinite && squared_distance(kernel.place(w), kernel.place(v)) < clear2) {
+      is_clear = false;
+    }
+  });
+  return is_clear;
+}
+
+template class LargeSimplices<2>;
+#ifndef MESHER_PLANE_ONLY
+template class LargeSimplices<3>;
+#endif
+
+}  // namespace mesher::detail

@@ -1,0 +1,84 @@
+// The simplices of a refined mesh that are larger than the limits of size allow, and where they are
+// split [rules A7, here without edits].
+//
+// Once no simplex is poor, the largest is split, until none is too large. It is split at a point of
+// the matching lattice (sizes/lattice.hpp) if that suits, else at its centre. Points of one lattice
+// are not too near to each other, and their Delaunay simplices are as large as is allowed, so
+// there are fewer vertices than of centres alone.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "delaunay/kernel.hpp"
+#include "refinement/bucketed_queue.hpp"
+#include "sizes/limits.hpp"
+
+namespace mesher::detail {
+
+template <int D>
+class LargeSimplices {
+ public:
+  using Kernel = DelaunayKernel<D, BallLayout<D>>;
+
+  /// `limits`: null, or what limits simplices. `least`: no measure of a region is less.
+  LargeSimplices(std::shared_ptr<const Limits<D>> limits, double least);
+
+  [[nodiscard]] bool any() const noexcept { return limits_ != nullptr; }
+  [[nodiscard]] bool started() const noexcept { return started_; }
+  void start(const Kernel& kernel);
+
+  /// Of a simplex that is new, or that waits no longer. Requires: started().
+  void look_at(const Kernel& kernel, std::uint32_t s);
+  /// Of a vertex that is dug. Requires: started().
+  void before_fill(const Kernel& kernel) noexcept {
+    for (const std::uint32_t s : kernel.doomed()) ++age_[s];
+  }
+  /// The next that is too large; kNone: there is none. `limit(s, measure)`: what is allowed, given
+  /// what is allowed where its centroid is.
+  template <class Limit>
+  [[nodiscard]] std::uint32_t take(const Kernel& kernel, Limit&& limit);
+  /// Finds the points of the lattice in the ball of the simplex that was taken.
+  [[nodiscard]] const std::vector<Point<D>>& places(const Kernel& kernel, std::uint32_t s);
+  /// Whether a vertex that is dug at one of them is as far from others as they are to be.
+  [[nodiscard]] bool is_clear(const Kernel& kernel, std::uint32_t v) const;
+
+ private:
+  struct Entry {
+    std::uint32_t simplex, age;
+  };
+  // Nearest first.
+  struct Place {
+    double distance2;  // to the centre
+    Point<D> at;
+  };
+  [[nodiscard]] static double measure_of(const Kernel& kernel, std::uint32_t s);
+  [[nodiscard]] static Point<D> centroid_of(const Kernel& kernel, std::uint32_t s);
+
+  std::shared_ptr<const Limits<D>> limits_;
+  double least_ = 0;  // nothing that is not larger is too large
+  bool started_ = false;
+  std::vector<std::uint32_t> age_;  // by simplex: how many there were
+  ComputedBuckets<Entry> queue_;
+  double pitch_ = 0, limit_ = 0;  // of what was taken
+  std::vector<Place> found_;      // scratch
+  std::vector<Point<D>> places_;
+};
+
+template <int D>
+template <class Limit>
+std::uint32_t LargeSimplices<D>::take(const Kernel& kernel, Limit&& limit) {
+  // Measures are computed to within 2^-45: what passes is not larger in exact arithmetic.
+  constexpr double kLargest = 1 - 0x1p-40;
+  while (!queue_.empty()) {
+    const Entry entry = queue_.delete_min();
+    const std::uint32_t s = entry.simplex;
+    if (age_[s] != entry.age) continue;
+    limit_ = limit(s, limits_->measure(centroid_of(kernel, s)));
+    if (measure_of(kernel, s) > limit_ * kLargest) return s;
+  }
+  return kNone;
+}
+
+}  // namespace mesher::detail
