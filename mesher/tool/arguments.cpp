@@ -140,6 +140,7 @@ mesher::Options<D> options_of(const MeshArguments& args, const Input<D>& input) 
   mesher::Options<D> options;
   if (!args.rho.empty()) options.rho = option_rho(args.rho, kMostRho);
   if (!args.min_angle.empty()) options.rho = option_min_angle(args.min_angle);
+  if (!args.growth.empty()) options.growth = option_positive("--growth", args.growth);
   if (!args.min_dihedral.empty()) set_min_dihedral(args.min_dihedral, options);
   options.rule =
       args.rule == "radius-edge" ? mesher::Rule::radius_edge : mesher::Rule::voronoi_aspect;

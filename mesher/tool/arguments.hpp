@@ -22,6 +22,7 @@ struct MeshArguments {
   std::string rho;           // empty: the default of the dimension
   std::string min_angle;     // degrees, in place of rho
   std::string min_dihedral;  // degrees, of `mesh` alone
+  std::string growth;        // of `mesh` alone
   std::string rule = "radius-edge";
   std::vector<std::string> domain;  // the lower corner, the upper corner; or nothing
   std::string max_area, max_volume, max_size, sizes;

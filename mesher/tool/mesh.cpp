@@ -120,18 +120,22 @@ void add_mesh(CLI::App& app) {
           "--algorithm", args->algorithm,
           "svr: sparse Voronoi refinement; refine: Delaunay refinement, from the triangulation\n"
           "of all points; gap-balls: the mesh that `edit` maintains, in 1.4 to 2 times the time,\n"
-          "also with limits of size. auto: refine in the plane and for evenly spread points in\n"
-          "space, else svr; gap-balls with limits of size, --static, another rule, or a --rho\n"
-          "below its default if there are lines or polygons, or if the first choice finds\n"
-          "features too close")
+          "with limits of size in 10 to 15 times. auto: refine in the plane and for evenly spread\n"
+          "points in space, else svr; gap-balls with --static, another rule, or a --rho below its\n"
+          "default if there are lines or polygons, or if the first choice finds features too close")
       ->check(CLI::IsMember({"auto", "gap-balls", "svr", "refine"}))
       ->capture_default_str();
   mesh->add_option(
           "--min-dihedral", args->min_dihedral,
           "In space, in degrees, at most 20: tetrahedra with smaller dihedral angles are\n"
           "split where that makes these larger; 10 to 12 is what solvers want. Few remain,\n"
-          "but where features meet at small angles. For refine and svr, without limits of size")
+          "but where features meet at small angles. For refine and svr")
       ->type_name("D");
+  mesh->add_option("--growth", args->growth,
+                   "Sizes grow by at most this factor from one simplex to the next, 1.05 to 100:\n"
+                   "at a distance d from edges of length e simplices are about as large as regular\n"
+                   "ones with edges of e + (G - 1) d, or smaller. For refine and svr")
+      ->type_name("G");
   mesh->footer(
       std::string(
           "Every line is a union of edges. If lines enclose something, the output is what they\n"

@@ -125,6 +125,10 @@ struct Options {
   /// In degrees, at most 29.6. A value above 0 replaces rho by 1 / (2 sin(min_angle)): no angle of
   /// a triangle (in space: of a face of a tetrahedron) is smaller.
   double min_angle = 0;
+  /// By how much sizes grow from one simplex to the next, from 1.05 to 100; 0: by any factor. At a
+  /// distance d from a vertex with edges of length e, simplices are at most about as large as
+  /// regular ones with edges of e + (growth - 1) d. For refine and svr. Users ask for 1.2 to 1.5.
+  double growth = 0;
   /// In degrees, at most 20, in space only; 0: no bound. Tetrahedra with a smaller dihedral angle
   /// are split where that makes it larger [Li, Teng 2001]: few remain, but where features meet at
   /// small angles. For refine and svr. Users of solvers ask for 10 to 12.
@@ -136,6 +140,9 @@ inline constexpr double kLargestMinAngle = 29.6;
 
 /// The largest min_dihedral, in degrees: beyond it points need many vertices.
 inline constexpr double kLargestMinDihedral = 20;
+
+/// The bounds of growth.
+inline constexpr double kLeastGrowth = 1.05, kMostGrowth = 100;
 
 /// The bound on the radius-edge ratio: 1 / (2 sin(min_angle)) if min_angle is above 0, else rho.
 template <int D>

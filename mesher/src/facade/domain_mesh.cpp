@@ -1,7 +1,9 @@
 // Joins a graph and its mesh: which vertex and edge is whose, and the part that is wanted.
 #include <algorithm>
+#include <limits>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "facade/graph_runs.hpp"
 #include "graph/distinct_ids.hpp"
@@ -64,8 +66,12 @@ RefinedExtent<D> refined(const Graph<D>& graph, Extent extent, RegionAreas areas
   RefinedExtent<D> refined{.only_enclosed = extent == Extent::enclosed};
   for (const auto& hole : graph.holes()) refined.holes.push_back(hole.at);
   if (areas == RegionAreas::ignored) return refined;
-  for (const auto& region : graph.regions()) {
-    if (region.max_measure) refined.regions.push_back({region.at, *region.max_measure});
+  std::vector<Seed<D>> regions = graph.regions();
+  std::sort(regions.begin(), regions.end(),
+            [](const auto& r, const auto& s) { return r.id < s.id; });
+  for (const Seed<D>& region : regions) {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    refined.regions.push_back({region.at, region.max_measure.value_or(kNone)});
   }
   return refined;
 }

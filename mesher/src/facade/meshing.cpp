@@ -28,10 +28,13 @@ bool has_limits(const Options<D>& o) {
   return o.max_measure != 0 || o.sizes != nullptr || !o.box_limits.empty();
 }
 
+// Options that gap-balls does not know.
 template <int D>
-bool bounds_dihedral_angles([[maybe_unused]] const Options<D>& o) {
-  if constexpr (D == 3) return o.min_dihedral != 0;
-  return false;
+bool has_static_options(const Options<D>& o) {
+  if constexpr (D == 3) {
+    if (o.min_dihedral != 0) return true;
+  }
+  return o.growth != 0;
 }
 
 template <int D>
@@ -90,7 +93,7 @@ Mesh<D> run_fastest(const Graph<D>& graph, const Options<D>& options, RunReport&
     return run(algorithm, graph, options, report, control, refinement);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::too_close && error.code() != ErrorCode::too_many) throw;
-    if (bounds_dihedral_angles(options)) throw;
+    if (has_static_options(options)) throw;
     report.tried = algorithm;
     report.gave_up = error;
   }
@@ -127,6 +130,9 @@ Options<D> detail::settled(Options<D> options) {
     if (!(options.min_dihedral >= 0 && options.min_dihedral <= kLargestMinDihedral)) {
       throw Error(ErrorCode::bad_option, "min_dihedral must be 0, for none, or up to 20 degrees");
     }
+  }
+  if (options.growth != 0 && !(options.growth >= kLeastGrowth && options.growth <= kMostGrowth)) {
+    throw Error(ErrorCode::bad_option, "growth must be 0, for any, or from 1.05 to 100");
   }
   options.rho = radius_edge_bound(options);
   options.min_angle = 0;

@@ -74,6 +74,14 @@ void require_simple(const Options<D>& options, const std::string& name) {
   throw Error(ErrorCode::bad_option, name + what);
 }
 
+// The check is that of gap-balls, which does not know all options.
+template <int D>
+Options<D> checked_options(Options<D> options) {
+  options.min_dihedral = {};
+  options.growth = 0;
+  return options;
+}
+
 const auto& points_of(const detail::PlaneConformity::Store& store) { return store.vertices.pool(); }
 
 // What an Algorithm makes of what was checked. `settings`: but for what is in the others.
@@ -113,7 +121,7 @@ Mesh<2> refine(const std::vector<Point<2>>& points, const std::vector<Segment>& 
                const RunControl& control) {
   if (segments.empty()) return refine<2>(points, options, settings, ids, stats, control);
   require_simple(options, "refine");
-  const detail::CheckedGraph graph(points, segments, options, ids, control);
+  const detail::CheckedGraph graph(points, segments, checked_options(options), ids, control);
   return run<detail::ComplexRefinement<2>>(graph, options, extent, {{}, settings.order}, stats,
                                            control);
 }
@@ -124,21 +132,11 @@ Mesh<2> svr(const std::vector<Point<2>>& points, const std::vector<Segment>& seg
   if (segments.empty()) return svr<2>(points, options, settings, ids, stats, control);
   require_simple(options, "svr");
   detail::require_k(settings.k);
-  const detail::CheckedGraph graph(points, segments, options, ids, control);
+  const detail::CheckedGraph graph(points, segments, checked_options(options), ids, control);
   return run<detail::ComplexSvr<2>>(graph, options, extent, {{}, settings.k}, stats, control);
 }
 
 #ifndef MESHER_PLANE_ONLY
-namespace {
-
-// The check is that of gap-balls, which bounds no dihedral angles.
-Options<3> checked_options(Options<3> options) {
-  options.min_dihedral = 0;
-  return options;
-}
-
-}  // namespace
-
 Mesh<3> refine(const std::vector<Point<3>>& points, const std::vector<Segment>& segments,
                const std::vector<Polygon>& polygons, const Options<3>& options,
                const RefinedExtent<3>& extent, const RefineSettings& settings,

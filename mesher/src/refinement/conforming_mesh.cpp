@@ -116,26 +116,34 @@ bool ConformingMesh<D>::has_outside() {
   return only_enclosed_;
 }
 
+/// If all of the box is wanted, holes are regions without limits.
 template <int D>
 void ConformingMesh<D>::find_regions() {
   if (std::exchange(has_regions_, true)) return;
   const double near = kNearWall * this->box_.side;
-  const bool encloses = conformity_.find_regions(holes_, near);
-  if (std::exchange(only_enclosed_, only_enclosed_ && encloses) && !encloses) {
+  if (only_enclosed_ && !conformity_.find_regions(holes_, near)) {
+    only_enclosed_ = false;
     this->require_box(kCoarseSteps);
   }
-  std::vector<Point<D>> places;
-  for (const LimitedRegion<D>& region : regions_) places.push_back(region.at);
-  conformity_.name_regions(places, near, !only_enclosed_);
+  std::uint32_t name = 0;
+  const auto add = [&](const Point<D>& p, double measure, bool outside_too) {
+    limits_.push_back(measure);
+    conformity_.name_region(p, name++, near, outside_too);
+  };
+  if (!only_enclosed_) {
+    static_cast<void>(conformity_.find_regions({}, near));
+    for (const Point<D>& hole : holes_) add(hole, std::numeric_limits<double>::infinity(), false);
+  }
+  for (const LimitedRegion<D>& r : regions_) add(r.at, r.max_measure, !only_enclosed_);
 }
 
 template <int D>
-double ConformingMesh<D>::limit_in_region(std::uint32_t s, double measure) {
+std::optional<double> ConformingMesh<D>::limit_in_region(std::uint32_t s, double measure) {
   if (only_enclosed_ || !regions_.empty()) find_regions();
-  if (only_enclosed_ && conformity_.is_outside(s)) return std::numeric_limits<double>::infinity();
+  if (only_enclosed_ && conformity_.is_outside(s)) return std::nullopt;
   if (regions_.empty()) return measure;
   const std::uint32_t region = conformity_.region(s);
-  return region == kNone ? measure : std::min(measure, regions_[region].max_measure);
+  return region == kNone ? measure : std::min(measure, limits_[region]);
 }
 
 template <int D>

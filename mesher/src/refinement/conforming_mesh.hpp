@@ -68,12 +68,13 @@ class ConformingMesh : public RefinedMesh<D> {
   [[nodiscard]] bool has_outside();
   [[nodiscard]] bool stays(std::uint32_t s) const;
 
-  [[nodiscard]] double limit_in_region(std::uint32_t s, double measure);
+  [[nodiscard]] std::optional<double> limit_in_region(std::uint32_t s, double measure);
   void find_regions();
 
   bool only_enclosed_, has_regions_ = false;
   std::vector<Point<D>> holes_;
   std::vector<LimitedRegion<D>> regions_;
+  std::vector<double> limits_;  // by the names of regions
   std::vector<std::uint32_t> star_;  // scratch
 };
 

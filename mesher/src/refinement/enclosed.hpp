@@ -28,11 +28,11 @@ class Enclosed {
   /// within `near` of a wall. Returns: whether there is anything else.
   template <class IsWall>
   bool find(std::span<const Point<D>> holes, double near, IsWall&& is_wall);
-  /// Names what no walls part from places[k], unless that is within `near` of a wall, by k; the
-  /// last one counts. `outside_too`: else what is outside stays so. Requires: find().
+  /// Names what no walls part from p, unless p is within `near` of a wall, or that has a name.
+  /// `outside_too`: else what is outside has none. Requires: find(); nothing was inserted since.
   template <class IsWall>
-  void name_regions(std::span<const Point<D>> places, double near, bool outside_too,
-                    IsWall&& is_wall);
+  void name_region(const Point<D>& p, std::uint32_t name, double near, bool outside_too,
+                   IsWall&& is_wall);
   /// After an insertion.
   void forget_made() {
     region_.resize(kernel_.simplices().places(), kUnknown);
@@ -43,7 +43,7 @@ class Enclosed {
   [[nodiscard]] bool is_outside(std::uint32_t s, IsWall&& is_wall) {
     return region(s, is_wall) == kOutside;
   }
-  /// The k of its region; kNone: it has no name. Requires and cost: as is_outside().
+  /// Of its region; kNone: it has no name. Requires and cost: as is_outside().
   template <class IsWall>
   [[nodiscard]] std::uint32_t name(std::uint32_t s, IsWall&& is_wall) {
     const Region found = region(s, is_wall);
@@ -113,15 +113,14 @@ bool Enclosed<D>::is_near_wall(const Point<D>& p, std::uint32_t s, double near,
 
 template <int D>
 template <class IsWall>
-void Enclosed<D>::name_regions(std::span<const Point<D>> places, double near, bool outside_too,
-                               IsWall&& is_wall) {
-  std::uint32_t at = 0;
-  while (!kernel_.simplices().alive(at)) ++at;
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    at = kernel_.walk(places[k], at);
-    if (is_near_wall(places[k], at, near, is_wall)) continue;
-    if (region_[at] == kOutside && !outside_too) continue;
-    flood(at, kNamed + static_cast<Region>(k), is_wall);
+void Enclosed<D>::name_region(const Point<D>& p, std::uint32_t name, double near, bool outside_too,
+                              IsWall&& is_wall) {
+  std::uint32_t from = 0;
+  while (!kernel_.simplices().alive(from)) ++from;
+  const std::uint32_t s = kernel_.walk(p, from);
+  if (is_near_wall(p, s, near, is_wall)) return;
+  if (region_[s] == kInside || (region_[s] == kOutside && outside_too)) {
+    flood(s, kNamed + name, is_wall);
   }
 }
 

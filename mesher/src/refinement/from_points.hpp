@@ -54,7 +54,9 @@ void set_common(Settings& settings, const Options<D>& options, const MeshBox<D>&
   settings.rho = options.rho;
   if constexpr (D == 3) settings.min_dihedral = options.min_dihedral;
   const auto limits = std::make_shared<Limits<D>>(options, box);
-  if (limits->any() || settings.least_limit < Limits<D>::kNone) settings.limits = limits;
+  settings.growth = options.growth;
+  const bool limits_regions = settings.least_limit < Limits<D>::kNone;
+  if (limits->any() || limits_regions || options.growth != 0) settings.limits = limits;
   settings.most_vertices = options.max_vertices;
   settings.follow_degrees = follow_degrees;
   if (!watches(control)) return;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "geometry/box.hpp"
 #include "geometry/centroid.hpp"
@@ -15,9 +15,7 @@ namespace mesher::detail {
 namespace {
 
 // Of a lattice's points from all vertices, in pitches. In the lattice it is sqrt(3) / 2 or more.
-constexpr double kFromVertices = 0.6;
-// From the centre of a ball, in its radius: so much is left to the vertices.
-constexpr double kNearCentre = 0.75;
+constexpr double kFromVertices = 0.5;
 constexpr std::size_t kMostPlaces = 4;
 
 double measure(const CornersOf<2>& p) {
@@ -39,18 +37,10 @@ CornersOf<D> corners_of(const Kernel& kernel, std::uint32_t s) {
 }  // namespace
 
 template <int D>
-LargeSimplices<D>::LargeSimplices(std::shared_ptr<const Limits<D>> limits, double least)
-    : limits_(std::move(limits)) {
+LargeSimplices<D>::LargeSimplices(std::shared_ptr<const Limits<D>> limits, double least,
+                                  double growth)
+    : limits_(std::move(limits)), growth_(growth) {
   if (limits_ != nullptr) least_ = std::min(least, limits_->least_measure());
-}
-
-template <int D>
-void LargeSimplices<D>::start(const Kernel& kernel) {
-  started_ = true;
-  const auto& simplices = kernel.simplices();
-  for (std::uint32_t s = 0; s < simplices.places(); ++s) {
-    if (simplices.alive(s)) look_at(kernel, s);
-  }
 }
 
 template <int D>
@@ -62,12 +52,40 @@ Point<D> LargeSimplices<D>::centroid_of(const Kernel& kernel, std::uint32_t s) {
   return centroid(corners_of<D>(kernel, s));
 }
 
+/// The size of simplices with this measure. The same on every machine.
+template <int D>
+double LargeSimplices<D>::size_of(double measure) {
+  constexpr double kOfSpacing = D == 2 ? 1.0051688494283456 : 0.89089871814033927;
+  return kOfSpacing * Lattice<D>::spacing(measure);
+}
+
 template <int D>
 void LargeSimplices<D>::look_at(const Kernel& kernel, std::uint32_t s) {
   if (s >= age_.size()) age_.resize(kernel.simplices().places());
   if (kernel.is_ghost(s)) return;
+  double least = least_;
+  if (growth_.any()) least = std::min(least, measure_of_size<D>(growth_.least(kernel, s)));
   const double own = measure_of(kernel, s);
-  if (own > least_) queue_.insert(1 / own, {s, age_[s]});
+  if (own > least) queue_.insert(1 / own, {s, age_[s]});
+}
+
+template <int D>
+void LargeSimplices<D>::before_fill(const Kernel& kernel, std::uint32_t v) {
+  for (const std::uint32_t s : kernel.doomed()) ++age_[s];
+  if (growth_.any()) growth_.add_dug(kernel, v, std::exchange(dug_size_, Limits<D>::kNone));
+}
+
+template <int D>
+void LargeSimplices<D>::after_fill(Kernel& kernel) {
+  if (growth_.any()) growth_.spread(kernel, [&](std::uint32_t s) { look_at(kernel, s); });
+}
+
+template <int D>
+double LargeSimplices<D>::graded(const Kernel& kernel, std::uint32_t s, double limit) {
+  if (!growth_.any()) return limit;
+  const Point<D> middle = centroid_of(kernel, s);
+  if (limits_->nearest_in_domain(middle) != middle) return limit;
+  return std::min(limit, measure_of_size<D>(growth_.at(kernel, s, middle)));
 }
 
 /// By their distance from its centre.
@@ -75,14 +93,13 @@ template <int D>
 const std::vector<Point<D>>& LargeSimplices<D>::places(const Kernel& kernel, std::uint32_t s) {
   places_.clear();
   found_.clear();
-  pitch_ = limits_->pitch_for_measure(centroid_of(kernel, s), limit_);
+  pitch_ = limits_->pitch_for_measure(centroid_of(kernel, s), limit_, is_graded_);
   if (!(pitch_ < Limits<D>::kNone)) return places_;
   const CornersOf<D> corners = corners_of<D>(kernel, s);
   const Point<D>& centre = kernel.simplices().ball(s).centre;
   const double radius2 = squared_distance(centre, corners[0]);
   const double clear2 = kFromVertices * kFromVertices * pitch_ * pitch_;
-  const double most2 = kNearCentre * kNearCentre * radius2;
-  const double near = std::min(kNearCentre * std::sqrt(radius2), pitch_);
+  const double near = std::min(std::sqrt(radius2), pitch_);
   const Lattice<D> lattice(pitch_);
   lattice.visit_in(around(centre, near), [&](const auto& node) {
     const Point<D> p = lattice.place(node);
@@ -91,7 +108,7 @@ const std::vector<Point<D>>& LargeSimplices<D>::places(const Kernel& kernel, std
       return squared_distance(p, q) >= clear2;
     });
     const bool is_limited = limits_->nearest_in_domain(p) == p;
-    if (distance2 <= most2 && is_apart && is_limited) found_.push_back({distance2, p});
+    if (distance2 < radius2 && is_apart && is_limited) found_.push_back({distance2, p});
     return false;
   });
   const std::size_t count = std::min(found_.size(), kMostPlaces);

@@ -9,10 +9,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "delaunay/kernel.hpp"
 #include "refinement/bucketed_queue.hpp"
+#include "refinement/growth.hpp"
 #include "sizes/limits.hpp"
 
 namespace mesher::detail {
@@ -23,22 +25,20 @@ class LargeSimplices {
   using Kernel = DelaunayKernel<D, BallLayout<D>>;
 
   /// `limits`: null, or what limits simplices. `least`: no measure of a region is less.
-  LargeSimplices(std::shared_ptr<const Limits<D>> limits, double least);
+  LargeSimplices(std::shared_ptr<const Limits<D>> limits, double least, double growth);
 
   [[nodiscard]] bool any() const noexcept { return limits_ != nullptr; }
   [[nodiscard]] bool started() const noexcept { return started_; }
-  void start(const Kernel& kernel);
-
-  /// Of a simplex that is new, or that waits no longer. Requires: started().
+  /// The next that is too large; kNone: there is none. `limit(s, measure)`: what is allowed, given
+  /// what is allowed where its centroid is, or nothing: any size is.
+  template <class Limit>
+  [[nodiscard]] std::uint32_t take(Kernel& kernel, Limit&& limit);
+  /// Of a simplex that is new, or that was taken and is not split. Requires: started().
   void look_at(const Kernel& kernel, std::uint32_t s);
   /// Of a vertex that is dug. Requires: started().
-  void before_fill(const Kernel& kernel) noexcept {
-    for (const std::uint32_t s : kernel.doomed()) ++age_[s];
-  }
-  /// The next that is too large; kNone: there is none. `limit(s, measure)`: what is allowed, given
-  /// what is allowed where its centroid is.
-  template <class Limit>
-  [[nodiscard]] std::uint32_t take(const Kernel& kernel, Limit&& limit);
+  void before_fill(const Kernel& kernel, std::uint32_t v);
+  /// Of what was made. Requires: started().
+  void after_fill(Kernel& kernel);
   /// Finds the points of the lattice in the ball of the simplex that was taken.
   [[nodiscard]] const std::vector<Point<D>>& places(const Kernel& kernel, std::uint32_t s);
   /// Whether a vertex that is dug at one of them is as far from others as they are to be.
@@ -55,28 +55,61 @@ class LargeSimplices {
   };
   [[nodiscard]] static double measure_of(const Kernel& kernel, std::uint32_t s);
   [[nodiscard]] static Point<D> centroid_of(const Kernel& kernel, std::uint32_t s);
+  [[nodiscard]] static double size_of(double measure);
+  template <class Limit>
+  void start(Kernel& kernel, Limit&& limit);
+  [[nodiscard]] double graded(const Kernel& kernel, std::uint32_t s, double limit);
 
   std::shared_ptr<const Limits<D>> limits_;
-  double least_ = 0;  // nothing that is not larger is too large
+  double least_ = 0;  // nothing that is not larger is too large, but for growth
+  Growth<D> growth_;
   bool started_ = false;
   std::vector<std::uint32_t> age_;  // by simplex: how many there were
   ComputedBuckets<Entry> queue_;
-  double pitch_ = 0, limit_ = 0;  // of what was taken
+  double limit_ = 0, pitch_ = 0;  // of what was taken
+  bool is_graded_ = false;        // and that the limit is one of growth
+  double dug_size_ = Limits<D>::kNone;  // of the vertex that will split what was taken
   std::vector<Place> found_;      // scratch
   std::vector<Point<D>> places_;
 };
 
 template <int D>
 template <class Limit>
-std::uint32_t LargeSimplices<D>::take(const Kernel& kernel, Limit&& limit) {
+void LargeSimplices<D>::start(Kernel& kernel, Limit&& limit) {
+  started_ = true;
+  const auto for_each = [&](auto&& visit) {
+    for (std::uint32_t s = 0; s < kernel.simplices().places(); ++s) {
+      if (kernel.simplices().alive(s) && !kernel.is_ghost(s)) visit(s);
+    }
+  };
+  if (growth_.any()) {
+    growth_.start(kernel);
+    for_each([&](std::uint32_t s) {
+      const auto allowed = limit(s, limits_->measure(centroid_of(kernel, s)));
+      if (allowed) growth_.bound(kernel, s, size_of(*allowed));
+    });
+    growth_.spread(kernel, [](std::uint32_t) {});
+  }
+  for_each([&](std::uint32_t s) { look_at(kernel, s); });
+}
+
+template <int D>
+template <class Limit>
+std::uint32_t LargeSimplices<D>::take(Kernel& kernel, Limit&& limit) {
   // Measures are computed to within 2^-45: what passes is not larger in exact arithmetic.
   constexpr double kLargest = 1 - 0x1p-40;
+  if (!started_) start(kernel, limit);
   while (!queue_.empty()) {
     const Entry entry = queue_.delete_min();
     const std::uint32_t s = entry.simplex;
     if (age_[s] != entry.age) continue;
-    limit_ = limit(s, limits_->measure(centroid_of(kernel, s)));
-    if (measure_of(kernel, s) > limit_ * kLargest) return s;
+    const std::optional<double> allowed = limit(s, limits_->measure(centroid_of(kernel, s)));
+    if (!allowed) continue;
+    limit_ = graded(kernel, s, *allowed);
+    is_graded_ = limit_ < *allowed;
+    if (!(measure_of(kernel, s) > limit_ * kLargest)) continue;
+    dug_size_ = size_of(limit_);
+    return s;
   }
   return kNone;
 }

@@ -77,10 +77,10 @@ class LineConformity {
   bool find_regions(std::span<const Point<D>> holes, double near) {
     return enclosed_.find(holes, near, [&](auto s, auto i) { return self().is_wall(s, i); });
   }
-  /// As Enclosed::name_regions(). Requires: as is_outside().
-  void name_regions(std::span<const Point<D>> places, double near, bool outside_too) {
-    enclosed_.name_regions(places, near, outside_too,
-                           [&](auto s, auto i) { return self().is_wall(s, i); });
+  /// As Enclosed::name_region().
+  void name_region(const Point<D>& p, std::uint32_t name, double near, bool outside_too) {
+    enclosed_.name_region(p, name, near, outside_too,
+                          [&](auto s, auto i) { return self().is_wall(s, i); });
   }
   /// As Enclosed::name(). Requires and cost: as is_outside().
   [[nodiscard]] std::uint32_t region(std::uint32_t s) {

@@ -51,7 +51,7 @@ template <int D>
 struct RefinedExtent {
   bool only_enclosed = false;
   std::vector<Point<D>> holes{};  ///< one on a segment, in space on a polygon, is none
-  std::vector<LimitedRegion<D>> regions{};  ///< the same holds; of several in one the last counts
+  std::vector<LimitedRegion<D>> regions{};  ///< the same holds; of several in one the first counts
 };
 
 /// The mesh. `options`: domain, rho and max_vertices count; `ids`: as many as points, only used in

@@ -29,7 +29,7 @@ RefinedMesh<D>::RefinedMesh(const MeshBox<D>& box, const Settings& settings, std
     : box_(box),
       rho2_(settings.rho * settings.rho * kSurely),
       centres_(box, settings.rho),
-      large_(settings.limits, settings.least_limit),
+      large_(settings.limits, settings.least_limit, settings.growth),
       slivers_(slivers_in<D>(box, settings)),
       settings_(settings) {
   kernel_.reserve(points + points / 2 + 1024);

@@ -50,6 +50,7 @@ class RefinedMesh {
     bool thorough = true;           // with slivers: see there
     std::shared_ptr<const Limits<D>> limits{};  // null: there are none
     double least_limit = std::numeric_limits<double>::infinity();  // of regions
+    double growth = 0;                                             // of sizes; 0: any
     std::size_t most_vertices = 0;  // 0: any number
     bool follow_degrees = false;
     int box_steps = 0;                         // along its edges; 0: the grid of gap balls
@@ -107,13 +108,12 @@ class RefinedMesh {
   }
   /// The next simplex that is too large; kNone: there is none. Requires: no simplex is poor.
   [[nodiscard]] std::uint32_t take_large() {
-    return take_large_if([](std::uint32_t, double measure) { return measure; });
+    return take_large_if([](std::uint32_t, double measure) { return std::optional(measure); });
   }
   /// The same with limits of its own: see LargeSimplices::take().
   template <class Limit>
   [[nodiscard]] std::uint32_t take_large_if(Limit&& limit) {
     if (!large_.any()) return kNone;
-    if (!large_.started()) large_.start(kernel_);
     return large_.take(kernel_, limit);
   }
   /// Digs a point of the lattice that splits a simplex, which take_large() has returned; nothing:
@@ -149,9 +149,9 @@ class RefinedMesh {
     kinds_.pop_back();
   }
   /// Of a vertex that is dug.
-  void before_fill([[maybe_unused]] std::uint32_t v) {
+  void before_fill(std::uint32_t v) {
     count_degrees(kernel_.doomed(), -1);
-    if (large_.started()) large_.before_fill(kernel_);
+    if (large_.started()) large_.before_fill(kernel_, v);
     if constexpr (D == 3) {
       if (slivers_.started()) slivers_.before_fill(kernel_, v);
     }
@@ -160,6 +160,7 @@ class RefinedMesh {
   void after_fill() {
     made_ += kernel_.made().size();
     count_degrees(kernel_.made(), 1);
+    if (large_.started()) large_.after_fill(kernel_);
   }
   /// Calls look(s, shape) for each simplex and counts them.
   template <class Look>

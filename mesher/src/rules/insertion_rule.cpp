@@ -93,9 +93,13 @@ std::unique_ptr<const InsertionRule<D>> insertion_rule(const Options<D>& options
   if constexpr (D == 3) {
     if (options.min_dihedral != 0) {
       throw Error(ErrorCode::bad_option,
-                  "gap-balls, and so a mesh with limits of size or under edits, has no bound of "
-                  "dihedral angles yet: min_dihedral must be 0");
+                  "gap-balls, and so a mesh under edits, has no bound of dihedral angles yet: "
+                  "min_dihedral must be 0");
     }
+  }
+  if (options.growth != 0) {
+    throw Error(ErrorCode::bad_option,
+                "gap-balls, and so a mesh under edits, has no bound of growth: growth must be 0");
   }
   return policy<D>(options.rule).make(options, box, limits);
 }

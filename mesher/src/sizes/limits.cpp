@@ -68,6 +68,7 @@ Limits<D>::Limits(const Options<D>& options, const MeshBox<D>& box)
   parts_.reserve(options.box_limits.size() + 1);
   add_part(domain_, {options.max_measure, options.sizes});
   for (const BoxLimits<D>& part : options.box_limits) add_part(part.box, part.limits);
+  if (options.growth != 0 && bands_.empty()) add_bands();
   if (regions_ != nullptr) {
     for (const double measure : regions_->measures()) add_plateau(spacing(measure));
   }
@@ -158,9 +159,9 @@ double Limits<D>::pitch_for(const Look& look) const {
 }
 
 template <int D>
-double Limits<D>::pitch_for_measure(const Point<D>& p, double measure) const {
+double Limits<D>::pitch_for_measure(const Point<D>& p, double measure, bool varies) const {
   const Look there = look(p);
-  return measure == there.measure ? pitch_for(there) : pitch_for({measure, 0, true});
+  return measure == there.measure ? pitch_for(there) : pitch_for({measure, 0, !varies});
 }
 
 template <int D>

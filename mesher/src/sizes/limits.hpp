@@ -45,8 +45,9 @@ class Limits {
   [[nodiscard]] double measure(const Point<D>& p) const { return look(p).measure; }
   /// The pitch of the lattice at p; kNone: no lattice. Throws: also if it is too small.
   [[nodiscard]] double pitch(const Point<D>& p) const { return any() ? pitch_for(look(p)) : kNone; }
-  /// The same, where this measure is allowed: that at p, or a constant of a region that p is in.
-  [[nodiscard]] double pitch_for_measure(const Point<D>& p, double measure) const;
+  /// The same, where this measure is allowed: that at p, or another one, which is a constant of a
+  /// region, or varies.
+  [[nodiscard]] double pitch_for_measure(const Point<D>& p, double measure, bool varies) const;
   /// No simplex that is not larger than this is too large anywhere. kNone: there are no limits.
   [[nodiscard]] double least_measure() const;
   /// The same where the limit is a constant or a plateau; elsewhere 0.
