@@ -243,8 +243,6 @@ for kind in nested tee pages spike island; do
 done
 refuse 2 'svr of segments and polygons needs a rho of 2 or more' mesh byother.poly \
   --algorithm svr --rho 1.5 -o out/x.node
-refuse 2 'refine knows no limits of size' mesh byother.poly --algorithm refine \
-  --max-volume 1 -o out/x.node
 
 echo "== complexes: what is wrong is said with line, ids and place"
 # bad CODE TEXT SED: of two.poly, changed

@@ -60,7 +60,7 @@ taken svr svr/line-circle.3.node
 has svr/auto.json '"largest_degree": [0-9]+,'
 has svr/auto.json '"warped": [0-9]+,'
 taken refine "$data/great_lakes.poly"
-taken gap-balls svr/uniform.2.node --max-area 0.01
+taken refine svr/uniform.2.node --max-area 0.01
 taken gap-balls svr/uniform.2.node --rule voronoi-aspect --rho 2
 taken gap-balls svr/uniform.3.node --static
 taken gap-balls svr/holed.poly --rho 1.3
@@ -68,26 +68,46 @@ taken refine svr/uniform.2.node --rho 1.3
 expect 0 '' gen cube --dim 3 -o svr/cube.poly
 taken svr svr/cube.poly
 taken gap-balls svr/cube.poly --rho 1.8
-taken gap-balls svr/cube.poly --max-volume 0.01
+taken svr svr/cube.poly --max-volume 0.01
+taken svr svr/cube.poly --growth 1.3
 for algorithm in gap-balls svr refine; do
   expect 0 '' mesh svr/uniform.3.node --algorithm $algorithm --quiet -o svr/$algorithm.node
 done
 if cmp -s svr/gap-balls.node svr/svr.node; then fail "--algorithm says nothing"; fi
 if cmp -s svr/svr.node svr/refine.node; then fail "refine is svr"; fi
 
+echo "== svr: limits of size, everywhere, by a background, in regions, and growth"
+for algorithm in svr refine; do
+  expect 0 '' mesh "$data/great_lakes.poly" --algorithm $algorithm --max-area 0.01 -o svr/l.1.node
+  expect 0 'area        ok' check svr/l.1.node --input "$data/great_lakes.poly" --rho 1.4142 \
+    --max-area 0.01
+  expect 0 '' mesh svr/cube.poly --algorithm $algorithm --max-volume 0.001 -o svr/c.1.node
+  expect 0 'volume      ok' check svr/c.1.node --input svr/cube.poly --rho 2 --max-volume 0.001
+  sed 's/^1 .1 .1 3$/1 .1 .1 3 .001/' svr/holed.poly >svr/region.poly
+  expect 0 '' mesh svr/region.poly --algorithm $algorithm --region-areas -o svr/r.1.node
+  expect 0 'area        ok' check svr/r.1.node --input svr/region.poly --rho 1.4142 --max-area 0.001
+  expect 0 '' mesh svr/region.poly --algorithm $algorithm -o svr/r.1.node
+  expect 1 'error[bad_quality]: area' check svr/r.1.node --input svr/region.poly --max-area 0.001
+  printf 'x,y,h\n0,0,0.02\n1,1,0.2\n' >svr/sizes.csv
+  expect 0 '' mesh svr/holed.poly --algorithm $algorithm --sizes svr/sizes.csv -o svr/s.1.node
+  expect 0 'quality     ok' check svr/s.1.node --input svr/holed.poly --rho 1.4142
+  expect 0 '' mesh svr/cube.poly --algorithm $algorithm --growth 1.2 -o svr/g.1.node
+  expect 0 'quality     ok' check svr/g.1.node --input svr/cube.poly --rho 2
+done
+
 echo "== svr: refusals, and nothing is written"
 rm -rf out
 mkdir out
 refuse 2 'svrr not in {auto,gap-balls,svr,refine}' mesh svr/uniform.3.node --algorithm svrr -o out/x.node
 for algorithm in svr refine; do
-  refuse 2 "$algorithm knows no limits of size" mesh "$data/great_lakes.poly" \
-    --algorithm $algorithm --max-area 0.1 -o out/x.node
   refuse 2 "$algorithm of segments needs a rho of 1.4142 or more" mesh "$data/great_lakes.poly" \
     --algorithm $algorithm --rho 1.4 -o out/x.node
   refuse 4 'more than 6000 vertices are needed; so far' mesh \
     "$data/great_lakes.poly" --algorithm $algorithm --max-vertices 6000 -o out/x.node
-  refuse 2 "$algorithm knows no limits of size" mesh svr/uniform.2.node --algorithm $algorithm \
-    --max-area 0.1 -o out/x.node
+  refuse 2 'growth must be 0, for any, or from 1.05 to 100' mesh svr/uniform.2.node \
+    --algorithm $algorithm --growth 1.01 -o out/x.node
+  refuse 2 'gap-balls, and so a mesh under edits, has no bound of growth' mesh svr/uniform.2.node \
+    --algorithm gap-balls --growth 1.3 -o out/x.node
   refuse 2 "$algorithm needs the rule radius-edge" mesh svr/uniform.2.node --algorithm $algorithm \
     --rule voronoi-aspect -o out/x.node
   refuse 4 'more than 400 vertices are needed' mesh svr/uniform.3.node --algorithm $algorithm \

@@ -70,7 +70,8 @@ struct AngleReport {
   double smallest_elsewhere_deg = 0;  ///< of all others; 0 if there are none
   double promised_deg = 0;            ///< lower bound for the others: arcsin(1 / (2 rho))
   /// Vertices at which refinement has shrunk lengths by more than kShrinks. Empty unless small
-  /// angles interact in a way that the rules do not foresee.
+  /// angles interact in a way that the rules do not foresee. Not looked for if regions limit sizes
+  /// (without Options::region_limits), or growth does.
   std::vector<ShrunkVertex> shrunk;
 
   /// A summary for people, one sentence per line; empty if no angle is small.

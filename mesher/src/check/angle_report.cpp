@@ -59,7 +59,11 @@ class Report {
     std::sort(all.begin(), all.end(), detail::is_before);
     return all;
   }
+  // Where regions limit sizes, or growth, it is not known what is wanted.
   [[nodiscard]] std::vector<ShrunkVertex> shrunk() const {
+    const bool limits_regions =
+        options_.region_areas == RegionAreas::limits && options_.region_limits == nullptr;
+    if (limits_regions || options_.growth != 0) return {};
     std::vector<ShrunkVertex> all = detail::shrunk_vertices(mesh_, lines_, kShrinks);
     const detail::Limits<2> limits(options_, detail::mesh_box(options_));
     std::erase_if(all, [&](const auto& v) { return detail::is_wanted(v, limits); });

@@ -154,8 +154,8 @@ TEST_CASE("mesh() of a box with a polyline in it, by every algorithm") {
 TEST_CASE("mesh() chooses gap-balls for what others do not know") {
   Graph<2> graph = square();
   CHECK(mesh(graph, {.rho = 1.2}).report.algorithm == Algorithm::gap_balls);
-  CHECK(mesh(graph, {.max_measure = 0.01}).report.algorithm == Algorithm::gap_balls);
-  CHECK_THROWS_AS(mesh(graph, {.max_measure = 0.01, .algorithm = Algorithm::svr}), Error);
+  CHECK(mesh(graph, {.max_measure = 0.01}).report.algorithm == Algorithm::refine);
+  CHECK(mesh(graph, {.max_measure = 0.01, .growth = 2}).report.algorithm == Algorithm::refine);
 }
 
 TEST_CASE("min_angle stands for rho") {
