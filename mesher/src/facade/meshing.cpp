@@ -1,8 +1,10 @@
 // mesh(): which algorithm, and where limits of size count.
 #include "mesher/meshing.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "facade/graph_runs.hpp"
@@ -82,6 +84,15 @@ Mesh<D> run(Algorithm algorithm, const Graph<D>& graph, const Options<D>& option
   return mesh;
 }
 
+// How many vertices gap-balls may make where the first choice has found features too close: in
+// space it may go on and on there, for minutes.
+template <int D>
+std::size_t most_after(const Graph<D>& graph, const Options<D>& options) {
+  if (D == 2 || !has_features(graph)) return options.max_vertices;
+  const std::size_t most = 20 * graph.points.size() + 10000;
+  return options.max_vertices == 0 ? most : std::min(most, options.max_vertices);
+}
+
 template <int D>
 Mesh<D> run_fastest(const Graph<D>& graph, const Options<D>& options, RunReport& report,
                     const RunControl& control, bool refinement) {
@@ -97,7 +108,16 @@ Mesh<D> run_fastest(const Graph<D>& graph, const Options<D>& options, RunReport&
     report.tried = algorithm;
     report.gave_up = error;
   }
-  return run(Algorithm::gap_balls, graph, options, report, control, refinement);
+  Options<D> bounded = options;
+  bounded.max_vertices = most_after(graph, options);
+  try {
+    return run(Algorithm::gap_balls, graph, bounded, report, control, refinement);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::too_many) throw;
+    if (bounded.max_vertices == options.max_vertices) throw;
+    throw report.gave_up->with_message(report.gave_up->message() + "; gap-balls needs more than " +
+                                       std::to_string(bounded.max_vertices) + " vertices there");
+  }
 }
 
 }  // namespace

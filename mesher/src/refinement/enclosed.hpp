@@ -2,7 +2,8 @@
 // regions that are named by a place.
 //
 // Walls are facets, which stay where they are: only what is new has to be looked at, and it is
-// where what was there before is, on the same side of them.
+// where what was there before is, on the same side of them. Of a region that is new as a whole the
+// places say what it is.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "delaunay/kernel.hpp"
+#include "geometry/box.hpp"
 #include "refinement/clear_of_side.hpp"
 
 namespace mesher::detail {
@@ -61,12 +63,18 @@ class Enclosed {
   void flood(std::uint32_t from, Region region, IsWall&& is_wall);
   template <class IsWall>
   [[nodiscard]] Region region(std::uint32_t s, IsWall&& is_wall);
+  [[nodiscard]] Region named_in(const std::vector<std::uint32_t>& all) const;
   [[nodiscard]] std::uint32_t across(std::uint32_t s, std::uint32_t i) const noexcept {
     return kernel_.simplices().across(s)[i] >> 2;
   }
 
   const Kernel& kernel_;
+  struct Named {
+    Point<D> at;
+    Region region;
+  };
   std::vector<Region> region_;  // by simplex
+  std::vector<Named> named_;
 };
 
 template <int D>
@@ -74,6 +82,7 @@ template <class IsWall>
 bool Enclosed<D>::find(std::span<const Point<D>> holes, double near, IsWall&& is_wall) {
   const auto& simplices = kernel_.simplices();
   region_.assign(simplices.places(), kUnknown);
+  named_.clear();
   std::uint32_t at = kNone;
   for (std::uint32_t s = 0; s < simplices.places(); ++s) {
     if (!simplices.alive(s)) continue;
@@ -82,7 +91,9 @@ bool Enclosed<D>::find(std::span<const Point<D>> holes, double near, IsWall&& is
   }
   for (const Point<D>& p : holes) {
     at = kernel_.walk(p, at);
-    if (!is_near_wall(p, at, near, is_wall)) flood(at, kOutside, is_wall);
+    if (is_near_wall(p, at, near, is_wall)) continue;
+    flood(at, kOutside, is_wall);
+    named_.push_back({p, kOutside});
   }
   bool encloses = false;
   for (std::uint32_t s = 0; s < simplices.places(); ++s) {
@@ -121,6 +132,7 @@ void Enclosed<D>::name_region(const Point<D>& p, std::uint32_t name, double near
   if (is_near_wall(p, s, near, is_wall)) return;
   if (region_[s] == kInside || (region_[s] == kOutside && outside_too)) {
     flood(s, kNamed + name, is_wall);
+    named_.push_back({p, kNamed + name});
   }
 }
 
@@ -160,10 +172,29 @@ auto Enclosed<D>::region(std::uint32_t s, IsWall&& is_wall) -> Region {
       if (region_[other] != kInside) found = region_[other];
     }
   }
+  if (found == kInside) found = named_in(all);
   if (found != kInside) {
     for (const std::uint32_t t : all) region_[t] = found;
   }
   return found;
+}
+
+/// What a place in one of them says, else kInside. Requires: no ghosts.
+template <int D>
+auto Enclosed<D>::named_in(const std::vector<std::uint32_t>& all) const -> Region {
+  if (named_.empty()) return kInside;
+  const auto at = [&](std::uint32_t v) -> const Point<D>& { return kernel_.place(v); };
+  Box<D> box{at(kernel_.simplices().corners(all.front())[0]), {}};
+  box.hi = box.lo;
+  for (const std::uint32_t s : all) {
+    for (const std::uint32_t v : kernel_.simplices().corners(s)) grow(box, at(v));
+  }
+  for (const auto& [p, region] : named_) {
+    if (!contains(box, p)) continue;
+    const std::uint32_t s = kernel_.walk(p, all.front());
+    if (std::find(all.begin(), all.end(), s) != all.end()) return region;
+  }
+  return kInside;
 }
 
 }  // namespace mesher::detail
