@@ -175,7 +175,7 @@ TEST_CASE("region areas are limits if asked for") {
   graph.seeds[0].max_measure = 0.001;
   const auto without = mesh(graph, {});
   const auto with = mesh(graph, {.region_areas = RegionAreas::limits});
-  CHECK(with.report.algorithm == Algorithm::gap_balls);
+  CHECK(with.report.algorithm == Algorithm::refine);
   CHECK(with.mesh.simplices.size() > 1000);
   CHECK(without.mesh.simplices.size() < 200);
 }

@@ -306,7 +306,7 @@ TEMPLATE_TEST_CASE_SIG("what cannot be meshed is refused", "", ((By B), B), By::
   };
   const auto same = [](const auto&) {};
   CHECK(refusal(plc, [](auto& o) { o.rho = 1.9; }) == "bad_option");
-  CHECK(refusal(plc, [](auto& o) { o.max_measure = 1; }) == "bad_option");
+  CHECK(refusal(plc, [](auto& o) { o.max_measure = -1; }) == "bad_option");
   CHECK(refusal(plc, [](auto& o) { o.rule = mesher::Rule::voronoi_aspect; }) == "bad_option");
   CHECK(refusal(plc, [](auto& o) { o.max_vertices = 110; }) == "too_many");
   Graph<3> bad = plc;

@@ -62,7 +62,7 @@ TEMPLATE_TEST_CASE_SIG("graphs that cannot be meshed are refused, by name", "", 
   };
   CHECK(changed([](auto& o) { o.rho = 1.41; }) == "bad_option");
   CHECK(changed([](auto& o) { o.rho = std::nan(""); }) == "bad_option");
-  CHECK(changed([](auto& o) { o.max_measure = 1; }) == "bad_option");
+  CHECK(changed([](auto& o) { o.max_measure = -1; }) == "bad_option");
   CHECK(changed([](auto& o) { o.rule = mesher::Rule::voronoi_aspect; }) == "bad_option");
   CHECK(changed([](auto& o) { o.domain = {{0, 0}, {0.5, 1}}; }) == "outside_domain");
   const auto edited = [&](auto&& edit) {

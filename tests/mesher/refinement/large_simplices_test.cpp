@@ -172,16 +172,14 @@ TEMPLATE_TEST_CASE_SIG("points alone, and all of the box, have limits", "", ((in
   const double limit = D == 2 ? 1e-3 : 1e-4;
   for (const Algorithm algorithm : kBoth) {
     INFO(name_of(algorithm));
-    const Options<D> options{.domain = {{}, parted<D>().points.back().at},
-                             .max_measure = limit,
-                             .extent = Extent::box,
-                             .algorithm = algorithm};
-    Options<D> in_box = options;
-    for (std::size_t i = 0; i < D; ++i) in_box.domain.hi[i] = 1;
+    const Options<D> in_box{.domain = mesher::snapped_domain<D>(places_of(graph)),
+                            .max_measure = limit,
+                            .extent = Extent::box,
+                            .algorithm = algorithm};
     const auto made = mesh(graph, in_box);
     CHECK(fault(made.mesh, graph) == "");
     CHECK(count_large(made.mesh, [&](std::size_t t) {
-            return is_in(in_box.domain, middle(made.mesh, t)) ? limit : kAny;
+            return is_in<D>(in_box.domain, middle(made.mesh, t)) ? limit : kAny;
           }) == 0);
   }
 }
@@ -260,7 +258,7 @@ TEST_CASE("random complexes have limits, and conform as before") {
           const auto made = mesh(plc, options);
           CHECK(fault(made.mesh, plc) == "");
           CHECK(count_large(made.mesh, [&](std::size_t t) {
-                  return is_in(options.domain, middle(made.mesh, t)) ? options.max_measure : kAny;
+                  return is_in<3>(options.domain, middle(made.mesh, t)) ? options.max_measure : kAny;
                 }) == 0);
         }
       }
