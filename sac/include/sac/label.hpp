@@ -211,7 +211,7 @@ class LabelSink {
 
 template <class T, class Same>
 void label_bytes(LabelSink& sink, const Mod<T, Same>& mod) {
-  sink.handle(mod.head());
+  sink.handle(mod.head().handle());
 }
 
 // A template, since Agenda is incomplete here.
