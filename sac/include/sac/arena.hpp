@@ -135,9 +135,8 @@ class Arena {
   }
   template <class T>
   [[nodiscard]] static Ref<T> ref(const T& object) noexcept {
-    return Ref<T>(locate(&object));
+    return Ref<T>(handle_of(&object));
   }
-  [[nodiscard]] Handle handle_of(const void* object) const noexcept { return locate(object); }
   [[nodiscard]] bool contains(const void* object) const noexcept {
     return static_cast<std::size_t>(static_cast<const std::byte*>(object) - base_) <
            next_ * kGranule;
@@ -150,7 +149,7 @@ class Arena {
   [[nodiscard]] Header& header() const noexcept { return *reinterpret_cast<Header*>(base_); }
 
   /// The handle of an object in some arena.
-  [[nodiscard]] static Handle locate(const void* object) noexcept {
+  [[nodiscard]] static Handle handle_of(const void* object) noexcept {
     return static_cast<Handle>((reinterpret_cast<std::uintptr_t>(object) & (kReserve - 1)) /
                                kGranule);
   }

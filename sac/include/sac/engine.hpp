@@ -91,7 +91,8 @@ struct FunctionProfile {
   std::uint64_t edge_bytes = 0;
 };
 
-/// Runs a program and keeps its trace up to date under edits.
+/// Runs a program and keeps its trace up to date under edits. It is the core, with the functions
+/// for clients; those of the core that structures need are named here, and written there.
 class Engine : Core {
  public:
   Engine();
@@ -310,8 +311,9 @@ class Engine : Core {
   /// their order.
   using Core::for_each_edge;
   /// Whether a call in the trace has this place; any handle is allowed.
-  using Core::arena;
   using Core::is_live_place;
+  /// The memory of calls, edges and values; structures may use it.
+  using Core::arena;
   /// The call whose body runs; null: none.
   using Core::running_call;
   /// context(what) is the beginning of a message: the running call, if there is one, then `what`.

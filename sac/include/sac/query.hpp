@@ -79,7 +79,7 @@ template <auto F, class... P>
 struct TypedQuery : Query {
   TypedQuery(std::uint32_t label_hash, const std::tuple<P...>& arguments)
       : Query{.type = &kType, .hash = label_hash}, args(arguments) {
-    Query::answer = ModRef(Arena::locate(&value));
+    Query::answer = ModRef(Arena::handle_of(&value));
   }
   static const TypedQuery& of(const Query& query) noexcept {
     return static_cast<const TypedQuery&>(query);

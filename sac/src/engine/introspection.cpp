@@ -42,7 +42,7 @@ Memory Engine::memory() const noexcept {
 }
 
 std::vector<FunctionProfile> Engine::profile() const {
-  const Registry<Function>& known = Core::functions();
+  const Registry<Function>& known = functions();
   std::vector<FunctionProfile> functions(known.size());
   walk([&](const Call& c, std::size_t) {
     FunctionProfile& f = functions[c.function_number];

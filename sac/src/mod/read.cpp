@@ -90,9 +90,7 @@ const detail::Version& ModStructure::last(ModRef head) const {
 detail::Version* ModStructure::visible_at(Place place, const Version& seen) const {
   if (!seen.past && !seen.outside && seen.place == place) return &at(Arena::ref(seen));
   const ModRef head = head_of(seen);
-  if (at(head).outside) return &at(head);
-  Version* const now = versions_around(place, head).before;
-  return now != nullptr && now->place == place ? predecessor(head, *now) : now;
+  return at(head).outside ? &at(head) : last_before(place, head);
 }
 
 // The reader goes with the version that it would see now.

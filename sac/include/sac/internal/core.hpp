@@ -1,7 +1,7 @@
 // The core: executes calls, keeps their trace, reuses and discards, and propagates.
 //
 // The parts around it, and the members that they use:
-//   Engine      the functions for clients: modes, counts, roll-back, introspection
+//   Engine      derived from it: modes, counts, roll-back, introspection
 //   Scope       operations of a running call: call_child, call_tail, recall, attach, guarded
 //   structures  Engine's public part "For structures": precedes, invalidate, doubt, ...
 //   Agenda      calls that are made before they run: "For work queues" below
@@ -321,7 +321,6 @@ class Core {
     return edges_before_ + counts_.edges_made - counts_.edges_removed;
   }
   [[nodiscard]] bool settled() const noexcept { return queue_.empty(); }
-  [[nodiscard]] Registry<Function>& functions() noexcept { return functions_; }
   [[nodiscard]] const Registry<Function>& functions() const noexcept { return functions_; }
   /// Whether a call that is in the trace has this place; anything may lie there.
   [[nodiscard]] bool is_live_place(Place place) const noexcept;

@@ -178,8 +178,7 @@ class ModStructure final : public Structure {
 
   /// Whether a call has written it before `place`. Cost: O(1), or O(log of its versions).
   [[nodiscard]] bool is_written_before(Place place, ModRef head) const noexcept {
-    const Version* const last = versions_around(place, head).before;
-    return last != nullptr && (last->place != place || predecessor(head, *last) != nullptr);
+    return last_before(place, head) != nullptr;
   }
   /// Whether no call writes or reads it. Requires: nothing is in doubt.
   [[nodiscard]] bool is_unused(ModRef head) const noexcept {
@@ -306,6 +305,10 @@ class ModStructure final : public Structure {
     }
     const auto found = history(first->history).versions.around(place, order());
     return {pointer(found.before), pointer(found.behind)};
+  }
+  [[nodiscard]] Version* last_before(Place place, ModRef head) const noexcept {
+    Version* const last = versions_around(place, head).before;
+    return last != nullptr && last->place == place ? predecessor(head, *last) : last;
   }
   void check_live(ModRef head, detail::Stamp stamp, const char* what) const;
   [[noreturn]] void fail_null(const char* what) const;
