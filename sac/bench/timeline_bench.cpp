@@ -42,7 +42,7 @@
 
 namespace {
 
-using sac::Handle;
+using sac::Place;
 using sac::TimeNode;
 using Clock = std::chrono::steady_clock;
 
@@ -90,24 +90,25 @@ class Report {
 /// A list, and memory for its nodes. The first of them is in the list already.
 struct List {
   explicit List(std::size_t capacity) : block(arena.allocate((capacity + 1) * sizeof(TimeNode))) {
-    std::fill_n(arena.at<TimeNode>(block), capacity + 1, TimeNode{});
+    std::fill_n(&arena[block], capacity + 1, TimeNode{});
     timeline.insert_after(timeline.front(), block);
   }
 
   /// The i-th node in order of insertion.
-  [[nodiscard]] Handle node(std::size_t i) const {
-    return block + static_cast<Handle>(i * sizeof(TimeNode) / sac::Arena::kGranule);
+  [[nodiscard]] Place node(std::size_t i) const {
+    return Place(block.handle() +
+                 static_cast<sac::Handle>(i * sizeof(TimeNode) / sac::Arena::kGranule));
   }
-  Handle insert_after(Handle place) {
-    const Handle h = node(++last);
+  Place insert_after(Place place) {
+    const Place h = node(++last);
     timeline.insert_after(place, h);
     return h;
   }
   void append(std::size_t n) {
     for (std::size_t i = 0; i < n; ++i) insert_after(timeline.back());
   }
-  [[nodiscard]] std::uint64_t less(Handle a, Handle b) const {
-    return timeline.precedes(*arena.at<TimeNode>(a), *arena.at<TimeNode>(b)) ? 1 : 0;
+  [[nodiscard]] std::uint64_t less(Place a, Place b) const {
+    return timeline.precedes(arena[a], arena[b]) ? 1 : 0;
   }
   [[nodiscard]] double bytes_per_node() const {
     return static_cast<double>(timeline.bytes()) / static_cast<double>(timeline.size()) +
@@ -116,7 +117,7 @@ struct List {
 
   sac::Arena arena;
   sac::Timeline timeline{arena};
-  Handle block;
+  Place block;
   std::size_t last = 0;
 };
 
@@ -146,7 +147,7 @@ void bench_one_place(Report& report, std::size_t n) {
   report.add("bytes_hotspot_middle", d.bytes_per_node());
   List e(2 * n);
   e.append(n);
-  Handle at = e.node(n / 2);
+  Place at = e.node(n / 2);
   report.time("run_middle", n, [&] {
     for (std::size_t i = 0; i < n; ++i) at = e.insert_after(at);
   });
@@ -161,7 +162,7 @@ void bench_bursts(Report& report, std::size_t n) {
   a.append(n);
   report.time("burst", n, [&] {
     for (const auto p : places) {
-      Handle at = a.node(p);
+      Place at = a.node(p);
       for (std::size_t i = 0; i < kBurst; ++i) at = a.insert_after(at);
     }
   });

@@ -43,7 +43,7 @@ class Claims final : public sac::Structure {
 
   // What a call did, and what it was told.
   struct Claim : sac::Edge {
-    sac::Handle place;
+    sac::Place place;
     bool first;                        // what it was told
     bool entered;                      // false: memory ran out before it was among the claimants
     typename Claimants::iterator key;  // where, if it was

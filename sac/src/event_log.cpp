@@ -89,7 +89,7 @@ EventLog::TextId EventLog::text_id(std::string text) {
 
 std::string EventLog::text_of(const Event& event) const {
   if (event.message != nullptr) return event.message;
-  if (event.source != 0) return engine_.describe_mod(event.source);
+  if (event.source != nullptr) return engine_.describe_mod(event.source);
   if (event.seen == nullptr) return "";
   std::ostringstream seen;
   engine_.structure_of(*event.seen).print(*event.call, *event.seen, seen);

@@ -4,54 +4,51 @@
 #include <algorithm>
 #include <sstream>
 
+#include "sac/internal/chain.hpp"
+
 namespace sac {
 
 using detail::FirstRequest;
 using detail::Query;
+using Requests = detail::Chain<FirstRequest, &FirstRequest::previous, &FirstRequest::next>;
 
 Queries::Queries(Engine& engine) : engine_(engine), id_(engine.add_structure(*this)) {}
 
 // --- Requests --------------------------------------------------------------------------------
 
 void Queries::ask_first(Scope& s, Query& query) {
-  const Handle asked = engine_.arena().handle_of(&query);
+  const Ref<Query> asked = Arena::ref(query);
   const auto same = [&](const FirstRequest& e) { return e.query == asked; };
-  const Handle place = s.place();
+  const Place place = s.place();
   if (s.recall<FirstRequest>(id_, kFirst, same, Scope::kMostRecalled) == nullptr) {
     auto& edge = s.observe<FirstRequest>(id_, kFirst);
     edge.place = place;
     edge.query = asked;
-    edge.previous = 0;
-    edge.next = query.first;
-    const Handle self = engine_.arena().handle_of(&edge);
-    if (query.first != 0) request(query.first).previous = self;
-    query.first = self;
+    Requests::push(engine_.arena(), query.first, edge);
   }
   // An earlier request has been answered since, unless this one is made for its answer, or the
   // running call has caught what that has thrown: its next call will say so.
-  for (Handle h = query.first; h != 0; h = request(h).next) {
-    if (engine_.precedes(engine_.time(request(h).place), engine_.time(place))) {
+  Requests::for_each(engine_.arena(), query.first, [&](const FirstRequest& other) {
+    if (engine_.precedes(engine_.time(other.place), engine_.time(place))) {
       require_no_cycle(s.self(), query);
     }
-  }
+  });
 }
 
 void Queries::answered(Scope& s, const Query& query) {
   if (engine_.appending()) return;
   const TimeNode& here = engine_.time(s.place());
-  for (Handle h = query.first; h != 0; h = request(h).next) {
-    const FirstRequest& other = request(h);
+  Requests::for_each(engine_.arena(), query.first, [&](const FirstRequest& other) {
     if (engine_.precedes(here, engine_.time(other.place))) {
       engine_.invalidate(other.place, &other);
     }
-  }
+  });
 }
 
 void Queries::retract(Call&, Edge& edge) noexcept {
   const auto& gone = static_cast<const FirstRequest&>(edge);
   Query& query = at(gone.query);
-  (gone.previous != 0 ? request(gone.previous).next : query.first) = gone.next;
-  if (gone.next != 0) request(gone.next).previous = gone.previous;
+  Requests::remove(engine_.arena(), query.first, gone);
   suspect(query);
 }
 
@@ -144,7 +141,7 @@ void Queries::suspect(Query& query) noexcept {
 }
 
 bool Queries::is_unused(const Query& query) const noexcept {
-  return query.first == 0 && engine_.mods().is_unused(query.answer);
+  return query.first == nullptr && engine_.mods().is_unused(query.answer);
 }
 
 void Queries::finished() noexcept {
@@ -174,8 +171,8 @@ void Queries::check_invariants() const {
     for (; q != nullptr; q = q->next) {
       ++size;
       SAC_INVARIANT(!is_unused(*q));
-      SAC_INVARIANT(q->first != 0 && request(q->first).next == 0);
-      SAC_INVARIANT(!engine_.mods().is_written_before(request(q->first).place, q->answer));
+      SAC_INVARIANT(q->first != nullptr && at(q->first).next == nullptr);
+      SAC_INVARIANT(!engine_.mods().is_written_before(at(q->first).place, q->answer));
     }
   }
   SAC_INVARIANT(size == size_);

@@ -30,6 +30,7 @@ std::string error_of(Act&& act) {
 }
 
 std::string at(sac::Handle handle) { return "@" + std::to_string(handle); }
+std::string at(sac::ModRef mod) { return at(mod.handle()); }
 
 Mod<int> named(Engine& e, Mod<int> mod, const char* name) {
   e.name(mod, name);

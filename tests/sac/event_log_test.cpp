@@ -552,7 +552,7 @@ TEST_CASE("the engine forgets a log that is gone, and the names of what is freed
   e.propagate();
   const auto b = e.input(2);
   REQUIRE(b == a);
-  CHECK(e.describe_mod(b.head()) == "modifiable @" + std::to_string(b.head()));
+  CHECK(e.describe_mod(b.head()) == "modifiable @" + std::to_string(b.head().handle()));
 }
 
 // Prints badly.

@@ -358,7 +358,7 @@ TEST_CASE("an argument is converted to what the function takes, and copied") {
   CHECK(e.get(number) == 1);
   std::set<std::string> labels;
   e.walk([&](const sac::Call& c, std::size_t) { labels.insert(Engine::describe(c)); });
-  CHECK(labels.count("keep_text(temporary17, @" + std::to_string(size.head()) + ")") == 1);
+  CHECK(labels.count("keep_text(temporary17, @" + std::to_string(size.head().handle()) + ")") == 1);
   CHECK((sac::detail::Called<keep_long, long, Mod<long>>::function.frame_bytes) > 0);
 }
 

@@ -46,12 +46,12 @@ class Thing : public sac::Structure {
   static constexpr std::uint8_t kAsking = 1;
   struct Producing : sac::ProducerEdge {};
   struct Asking : sac::Edge {
-    sac::Handle place;
+    sac::Place place;
   };
 
   void tell(const std::optional<sac::Window>& window) noexcept {
     if (!window.has_value()) return;
-    for (const sac::Handle h : asking_) {
+    for (const sac::Place h : asking_) {
       if (window->contains(engine_, engine_.time(h))) engine_.invalidate(h);
     }
   }
@@ -60,7 +60,7 @@ class Thing : public sac::Structure {
   sac::Presences presences_;
   sac::Presence presence_;
   std::uint8_t id_;
-  std::vector<sac::Handle> asking_;
+  std::vector<sac::Place> asking_;
 };
 
 // Calls in turn: the i-th pair produces the thing if it is told to, and asks whether it is there.

@@ -7,14 +7,18 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "failing_new.hpp"
+#include "sac/internal/chain.hpp"
 #include "sac/sac.hpp"
 
 namespace {
 
 using sac::Handle;
+using sac::Place;
+using CallRef = sac::Ref<sac::Call>;
 
 struct Random {
   std::uint64_t state = 11;
@@ -57,26 +61,75 @@ TEST_CASE("arena blocks do not overlap, keep their address, and are handed out a
 struct Calls {
   sac::Arena arena;
   sac::Timeline timeline{arena};
-  Handle make(Handle after) {
-    const Handle h = arena.allocate(sizeof(sac::Call));
-    ::new (arena.at<void>(h)) sac::Call;
-    timeline.insert_after(after, h);
-    return h;
+  CallRef make(Place after) {
+    const CallRef call = arena.make<sac::Call>();
+    timeline.insert_after(after, call);
+    return call;
   }
 };
+
+TEST_CASE("the handle of a record converts to that of its base, and to no other") {
+  STATIC_REQUIRE(sizeof(CallRef) == 4);
+  STATIC_REQUIRE(std::is_trivially_copyable_v<CallRef>);
+  STATIC_REQUIRE(std::is_convertible_v<CallRef, Place>);
+  STATIC_REQUIRE(std::is_convertible_v<sac::Ref<sac::Segment>, Place>);
+  STATIC_REQUIRE_FALSE(std::is_convertible_v<Place, CallRef>);
+  STATIC_REQUIRE_FALSE(std::is_constructible_v<CallRef, Place>);
+  STATIC_REQUIRE_FALSE(std::is_convertible_v<CallRef, sac::Ref<sac::Edge>>);
+  STATIC_REQUIRE_FALSE(std::is_convertible_v<Handle, CallRef>);
+  STATIC_REQUIRE_FALSE(std::is_convertible_v<CallRef, Handle>);
+  Calls calls;
+  const CallRef call = calls.make(calls.timeline.front());
+  const Place place = call;
+  CHECK(place == call);
+  CHECK(&calls.arena[place] == &calls.arena[call]);
+  CHECK(sac::Arena::ref(calls.arena[call]) == call);
+  CHECK(calls.arena.contains(call));
+  CHECK_FALSE(calls.arena.contains(CallRef()));
+  CHECK_FALSE(calls.arena.contains(CallRef(call.handle() + 1000)));
+}
+
+struct Member {
+  explicit Member(int number) : n(number) {}
+  int n;
+  sac::Ref<Member> previous, next;
+};
+
+TEST_CASE("a chain has the newest record first, and a visit may remove its record") {
+  using Chain = sac::detail::Chain<Member, &Member::previous, &Member::next>;
+  sac::Arena arena;
+  sac::Ref<Member> first;
+  std::vector<sac::Ref<Member>> all;
+  for (int i = 0; i < 6; ++i) {
+    all.push_back(arena.make<Member>(i));
+    Chain::push(arena, first, arena[all.back()]);
+  }
+  const auto numbers = [&] {
+    std::vector<int> found;
+    Chain::for_each(arena, first, [&](const Member& m) { found.push_back(m.n); });
+    return found;
+  };
+  CHECK(numbers() == std::vector{5, 4, 3, 2, 1, 0});
+  Chain::remove(arena, first, arena[all[5]]);
+  Chain::remove(arena, first, arena[all[0]]);
+  Chain::remove(arena, first, arena[all[2]]);
+  CHECK(numbers() == std::vector{4, 3, 1});
+  Chain::for_each(arena, first, [&](const Member& m) { Chain::remove(arena, first, m); });
+  CHECK(first == nullptr);
+}
 
 TEST_CASE("the propagation queue pops calls in trace order, whatever was pushed and taken out") {
   Calls calls;
   sac::PropagationQueue queue(calls.arena, calls.timeline);
   queue.reserve(500);
   Random random;
-  std::vector<Handle> order;
+  std::vector<CallRef> order;
   for (int i = 0; i < 500; ++i)
-    order.push_back(calls.make(order.empty() ? calls.timeline.front() : order.back()));
+    order.push_back(calls.make(order.empty() ? calls.timeline.front() : Place(order.back())));
   std::set<std::size_t> queued;
   for (int step = 0; step < 5000; ++step) {
     const std::size_t i = random(order.size());
-    auto& call = *calls.arena.at<sac::Call>(order[i]);
+    auto& call = calls.arena[order[i]];
     if (step % 500 == 499) queue.sort();
     if (random(3) == 0 && !queued.empty()) {
       REQUIRE(queue.front().call == order[*queued.begin()]);
@@ -154,16 +207,16 @@ TEST_CASE("the n-th allocation of an arena fails once, and a limit holds") {
 void check_memo_table(const std::function<std::uint32_t(std::uint32_t)>& hash_of, bool soon) {
   Calls calls;
   sac::MemoTable memo(calls.arena, calls.timeline);
-  std::vector<Handle> all;
+  std::vector<CallRef> all;
   const auto erase = [&](std::size_t i) {
     const std::uint32_t hash = hash_of(static_cast<std::uint32_t>(i));
     memo.leaves(all[i], hash);
     memo.erase(all[i], hash);
   };
   const auto found = [&](std::size_t i) {
-    const auto is_it = [&](const sac::Call& c) { return calls.arena.handle_of(&c) == all[i]; };
-    return memo.find_between(hash_of(static_cast<std::uint32_t>(i)), calls.timeline.front(), 0,
-                             is_it) == all[i];
+    const auto is_it = [&](const sac::Call& c) { return calls.arena.ref(c) == all[i]; };
+    return memo.find_between(hash_of(static_cast<std::uint32_t>(i)), calls.timeline.front(),
+                             nullptr, is_it) == all[i];
   };
   for (std::uint32_t i = 0; i < 5000; ++i) {
     all.push_back(calls.make(calls.timeline.back()));
@@ -194,7 +247,7 @@ void check_memo_table(const std::function<std::uint32_t(std::uint32_t)>& hash_of
 TEST_CASE("what waits for its place in the memo table is found in the order in which it came") {
   Calls calls;
   sac::MemoTable memo(calls.arena, calls.timeline);
-  std::vector<Handle> all;
+  std::vector<CallRef> all;
   const auto hash_of = [](std::size_t i) { return static_cast<std::uint32_t>(sac::mix(i / 3)); };
   for (std::size_t i = 0; i < 3000; ++i) {
     all.push_back(calls.make(calls.timeline.back()));
@@ -214,15 +267,15 @@ TEST_CASE("what waits for its place in the memo table is found in the order in w
   for (std::size_t i = 0; i < 3000; i += 5) memo.erase(all[i], hash_of(i));
   memo.check_invariants();
   for (std::size_t i = 0; i < 3000; i += 3) {
-    std::vector<Handle> expected, found;
+    std::vector<CallRef> expected, found;
     for (std::size_t k = i; k < i + 3; ++k) {
       if (k % 5 != 0) expected.push_back(all[k]);
     }
-    const Handle last = memo.find(hash_of(i), [&](const sac::Call& c) {
-      found.push_back(calls.arena.handle_of(&c));
+    const CallRef last = memo.find(hash_of(i), [&](const sac::Call& c) {
+      found.push_back(calls.arena.ref(c));
       return false;
     });
-    REQUIRE(last == 0);
+    REQUIRE(last == nullptr);
     REQUIRE(found == expected);
   }
   memo.check_invariants();

@@ -14,35 +14,34 @@
 
 namespace {
 
-using sac::Handle;
+using sac::Place;
 using sac::TimeNode;
 using support::memory_is_out;
 
 struct Fixture {
   sac::Arena arena;
   sac::Timeline timeline{arena};
-  std::list<Handle> oracle{timeline.front()};
-  std::vector<std::list<Handle>::iterator> places{oracle.begin()};  // the last one is the latest
+  std::list<Place> oracle{timeline.front()};
+  std::vector<std::list<Place>::iterator> places{oracle.begin()};  // the last one is the latest
   std::uint64_t state = 7;
 
   std::size_t random(std::size_t n) {
     state = sac::mix(state + 0x9e3779b97f4a7c15u);
     return state % n;
   }
-  static TimeNode::Kind kind_of(Handle node) {
+  static TimeNode::Kind kind_of(Place node) {
     constexpr TimeNode::Kind kKinds[] = {TimeNode::Kind::end, TimeNode::Kind::call,
                                          TimeNode::Kind::segment};
-    return kKinds[node % 3];
+    return kKinds[node.handle() % 3];
   }
-  TimeNode& at(Handle h) { return *arena.at<TimeNode>(h); }
-  Handle fresh() {
-    const Handle node = arena.allocate(sizeof(TimeNode));
-    ::new (arena.at<void>(node)) TimeNode;
+  TimeNode& at(Place h) { return arena[h]; }
+  Place fresh() {
+    const Place node = arena.make<TimeNode>();
     at(node).set_kind(kind_of(node));
     return node;
   }
   void insert(std::size_t i) { insert(i, fresh()); }
-  void insert(std::size_t i, Handle node) {
+  void insert(std::size_t i, Place node) {
     timeline.insert_after(*places[i], node);
     places.push_back(oracle.insert(std::next(places[i]), node));
   }
@@ -53,19 +52,19 @@ struct Fixture {
     for (int i = 0; i < count; ++i) insert(random(places.size()));
   }
   void erase(std::size_t i) {
-    const Handle node = *places[i];
+    const Place node = *places[i];
     timeline.erase(node);
-    arena.release(node, sizeof(TimeNode));
+    arena.release(node);
     oracle.erase(places[i]);
     places[i] = places.back();
     places.pop_back();
   }
   /// Takes out the `count` nodes behind `from`, or as many as there are.
-  void erase_range(std::list<Handle>::iterator from, std::size_t count) {
+  void erase_range(std::list<Place>::iterator from, std::size_t count) {
     auto to = std::next(from);
     for (; count > 0 && to != oracle.end(); --count, ++to) {
       timeline.erase(*to);
-      arena.release(*to, sizeof(TimeNode));
+      arena.release(*to);
     }
     oracle.erase(std::next(from), to);
     places.clear();
@@ -74,10 +73,10 @@ struct Fixture {
   void check() {
     timeline.check_invariants();
     REQUIRE(timeline.size() == oracle.size());
-    Handle node = timeline.front();
+    Place node = timeline.front();
     const TimeNode* previous = nullptr;
     bool same = true;
-    for (const Handle expected : oracle) {
+    for (const Place expected : oracle) {
       same = same && node == expected &&
              (previous == nullptr || timeline.precedes(*previous, at(node))) &&
              (previous == nullptr || !timeline.precedes(at(node), *previous)) &&
@@ -86,17 +85,17 @@ struct Fixture {
       node = at(node).next;
     }
     REQUIRE(same);
-    REQUIRE(node == 0);
+    REQUIRE(node == nullptr);
     REQUIRE(timeline.back() == oracle.back());
   }
   /// Random pairs are in the order of their positions.
   void check_pairs(int count) {
-    std::unordered_map<Handle, std::size_t> rank;
-    for (const Handle h : oracle) rank.emplace(h, rank.size());
+    std::unordered_map<sac::Handle, std::size_t> rank;
+    for (const Place h : oracle) rank.emplace(h.handle(), rank.size());
     bool same = true;
     for (int i = 0; i < count; ++i) {
-      const Handle a = *places[random(places.size())], b = *places[random(places.size())];
-      same = same && timeline.precedes(at(a), at(b)) == (rank.at(a) < rank.at(b));
+      const Place a = *places[random(places.size())], b = *places[random(places.size())];
+      same = same && timeline.precedes(at(a), at(b)) == (rank.at(a.handle()) < rank.at(b.handle()));
     }
     REQUIRE(same);
   }
@@ -146,8 +145,8 @@ TEST_CASE("inserting on both sides of one node in turns keeps the order") {
   Fixture f;
   f.insert_after_latest(100);
   for (int i = 0; i < 20000; ++i) {
-    const Handle place = i % 2 == 0 ? *f.places[50] : f.at(*f.places[50]).prev;
-    const Handle node = f.fresh();
+    const Place place = i % 2 == 0 ? *f.places[50] : f.at(*f.places[50]).prev;
+    const Place node = f.fresh();
     f.timeline.insert_after(place, node);
     f.oracle.insert(i % 2 == 0 ? std::next(f.places[50]) : f.places[50], node);
   }
@@ -159,10 +158,10 @@ struct Watcher {
   explicit Watcher(Fixture& fixture) : f(fixture) { look(), written = 0; }
 
   void look() {
-    for (Handle h = f.timeline.front(); h != 0; h = f.at(h).next) {
+    for (Place h = f.timeline.front(); h != nullptr; h = f.at(h).next) {
       const std::uint64_t stamp = std::uint64_t{f.at(h).group()} << 32 | f.at(h).label;
-      if (stamps.size() <= h) stamps.resize(h + 1);
-      written += std::exchange(stamps[h], stamp) != stamp ? 1 : 0;
+      if (stamps.size() <= h.handle()) stamps.resize(h.handle() + 1);
+      written += std::exchange(stamps[h.handle()], stamp) != stamp ? 1 : 0;
     }
   }
 
@@ -322,7 +321,7 @@ TEST_CASE("an insertion that finds no memory changes nothing and can be done aga
   Fixture f;
   int failures = 0;
   const auto insert = [&](std::size_t place) {
-    const Handle node = f.fresh();
+    const Place node = f.fresh();
     memory_is_out = true;
     try {
       f.timeline.insert_after(*f.places[place], node);

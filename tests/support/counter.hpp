@@ -70,7 +70,7 @@ class Counter final : public sac::Structure {
 
  private:
   struct Entry : sac::Edge {
-    sac::Handle place;
+    sac::Place place;
     int key;
     int amount;    // added, or seen
     bool entered;  // false: memory ran out before it was in the list

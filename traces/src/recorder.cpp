@@ -58,7 +58,7 @@ class KeyedObjects {
  public:
   explicit KeyedObjects(const sac::Engine& engine) {
     engine.walk([&](const sac::Call& call, std::size_t) {
-      if (is_keyed(call)) starts_.push_back(engine.handle_of(call));
+      if (is_keyed(call)) starts_.push_back(engine.handle_of(call).handle());
     });
     std::sort(starts_.begin(), starts_.end());
     labels_.resize(starts_.size());
@@ -66,14 +66,17 @@ class KeyedObjects {
 
   static bool is_keyed(const sac::Call& call) { return call.function().object_offset != 0; }
 
-  void set_label(sac::Handle call, const LabelHash& label) { labels_[index_of(call)] = label; }
+  void set_label(sac::Ref<sac::Call> call, const LabelHash& label) {
+    labels_[index_of(call.handle())] = label;
+  }
 
   /// Label and offset of what lies at `handle`; nothing if that is in no object named so far.
   [[nodiscard]] std::optional<LabelHash> name(const sac::Engine& engine, sac::Handle handle) const {
     if (starts_.empty() || handle < starts_.front()) return {};
     const std::size_t i = index_of(handle);
     const std::size_t offset = std::size_t{handle - starts_[i]} * sac::Arena::kGranule;
-    if (offset >= engine.call(starts_[i]).function().frame_bytes || labels_[i] == LabelHash{})
+    if (offset >= engine.call(sac::Ref<sac::Call>(starts_[i])).function().frame_bytes ||
+        labels_[i] == LabelHash{})
       return {};
     LabelHasher hasher;
     hasher.hash(labels_[i]);
@@ -229,13 +232,13 @@ struct Visit {
 template <class Each>
 void walk_calls(const sac::Engine& engine, Each&& each) {
   std::map<const sac::Function*, std::uint32_t> functions;
-  std::vector<sac::Handle> ends;  // of the calls around the current one
+  std::vector<sac::Place> ends;  // of the calls around the current one
   std::size_t number = 0;
   engine.walk([&](const sac::Call& call, std::size_t depth) {
     const auto next = static_cast<std::uint32_t>(functions.size());
     const auto [function, is_new] = functions.try_emplace(&call.function(), next);
     ends.resize(depth);
-    const bool tail = depth > 0 && call.end != 0 && call.end == ends.back();
+    const bool tail = depth > 0 && call.end != nullptr && call.end == ends.back();
     ends.push_back(call.end);
     each(Visit{call, number++, static_cast<std::uint32_t>(depth), tail, function->second, is_new});
   });

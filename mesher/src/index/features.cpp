@@ -45,7 +45,7 @@ const Vertex<D>* Features<sac::Scope, D>::companion(const Vertex<D>& v) const {
 
 template <int D>
 void Features<sac::Scope, D>::changed(Vertex<D>& v) noexcept {
-  if (v.locator != 0) engine_.invalidate(engine_.call(v.locator));
+  if (v.locator != nullptr) engine_.invalidate(engine_.call(v.locator));
 }
 
 // --- What is there ---------------------------------------------------------------------------
@@ -186,7 +186,7 @@ void Features<sac::Scope, D>::retract(sac::Call& call, sac::Edge& edge) noexcept
     return;
   }
   Vertex<D>& v = pool_[static_cast<LevelEdge&>(edge).vertex];
-  if (v.locator == engine_.handle_of(call)) v.locator = 0;
+  if (v.locator == engine_.handle_of(call)) v.locator = nullptr;
 }
 
 // --- For people and for traces ---------------------------------------------------------------

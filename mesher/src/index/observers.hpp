@@ -26,7 +26,7 @@ namespace mesher::detail {
 template <int D>
 struct Observation : sac::Edge {
   VertexHandle center;
-  sac::Handle call;
+  sac::Ref<sac::Call> call;
   sac::Handle next;        // centred at the same vertex
   Reach<D> reach;          // no vertex beyond concerns it
   std::uint32_t arrivals;  // a list

@@ -92,7 +92,7 @@ void VertexIndex<sac::Scope, D>::produced(sac::Scope& s, Vertex<D>& v, BirthEdge
   edge.vertex = v.self;
   const bool was_there = v.presence.there();
   if (!was_there) log_.came(v);
-  const sac::Handle self = engine_.handle_of(s.self());
+  const sac::Ref<sac::Call> self = engine_.handle_of(s.self());
   SAC_ENSURES(s.place() == self);  // calls of the program act before they call
   const auto window = presences_.produced(v.presence, edge, self);
   v.alive = true;
@@ -118,7 +118,7 @@ Role VertexIndex<sac::Scope, D>::role_from(const sac::Call& producer,
 }
 
 template <int D>
-void VertexIndex<sac::Scope, D>::run_again(sac::Handle h, const sac::Window& window,
+void VertexIndex<sac::Scope, D>::run_again(sac::Ref<sac::Call> h, const sac::Window& window,
                                            const sac::Edge* seen) noexcept {
   sac::Call& call = engine_.call(h);
   if (window.contains(engine_, call)) engine_.invalidate(call, seen);
@@ -134,7 +134,7 @@ void VertexIndex<sac::Scope, D>::take_role(Vertex<D>& v, const Role& now,
   set_role(v, now);
   if (engine_.appending()) return;
   const sac::Window later{&producer, nullptr};
-  if (v.locator != 0) run_again(v.locator, later, nullptr);
+  if (v.locator != nullptr) run_again(v.locator, later, nullptr);
   for_each_cell_with(v, [&](const Observation& o) { run_again(o.call, later, &o); });
 }
 
@@ -159,15 +159,15 @@ template <int D>
 void VertexIndex<sac::Scope, D>::retract_birth(BirthEdge& birth) noexcept {
   Vertex<D>& v = pool_[birth.vertex];
   touch(v);
-  const sac::Handle earliest = v.presence.birth();
+  const sac::Place earliest = v.presence.birth();
   const auto window = presences_.retracted(v.presence, birth);
   v.alive = v.presence.there();
   if (v.alive && v.presence.birth() != earliest) {
-    const sac::Call& next = engine_.call(v.presence.birth());
+    const sac::Call& next = engine_.call_at(v.presence.birth());
     take_role(v, role_from(next, v), next);
   }
   if (!window.has_value()) return;
-  if (birth.kind == kBirthOnSegment && v.locator != 0) run_again(v.locator, *window, nullptr);
+  if (birth.kind == kBirthOnSegment && v.locator != nullptr) run_again(v.locator, *window, nullptr);
   vanished(v, *window);
 }
 
@@ -330,7 +330,7 @@ auto VertexIndex<sac::Scope, D>::cell_of_producer(const Vertex<D>& v) const noex
     -> const CellSeen* {
   const CellSeen* cell = nullptr;
   if (!v.presence.there()) return cell;
-  engine_.for_each_edge(engine_.call(v.presence.birth()), [&](const sac::Edge& edge) {
+  engine_.for_each_edge(engine_.call_at(v.presence.birth()), [&](const sac::Edge& edge) {
     if (edge.structure == id_ && edge.kind == kCell) cell = static_cast<const CellSeen*>(&edge);
   });
   return cell;
@@ -346,7 +346,7 @@ const Ring* VertexIndex<sac::Scope, D>::last_ring(const Vertex<D>& v) const noex
 template <int D>
 CellLoan<D> VertexIndex<sac::Scope, D>::voronoi_cell(sac::Scope& s, VertexRef<D> v, double radius) {
   const sac::Call& self = s.self();
-  const sac::Handle caller = engine_.handle_of(self);
+  const sac::Ref<sac::Call> caller = engine_.handle_of(self);
   const float clip = packed(radius);
   SAC_EXPECTS(unpacked(clip) == radius);
   const Observation* last = observers_.find_at(*v, [&](const Observation& o) {
@@ -380,7 +380,7 @@ CellLoan<D> VertexIndex<sac::Scope, D>::star(sac::Scope& s, VertexRef<D> v) {
     record_star(s, *v, concern(*cell));
     return cell;
   }
-  const sac::Handle caller = engine_.handle_of(s.self());
+  const sac::Ref<sac::Call> caller = engine_.handle_of(s.self());
   const Observation* last = observers_.find_at(
       *v, [&](const Observation& o) { return o.kind == kStar && o.call == caller; });
   CellLoan<D> cell = look(*v, whole(), last, [&](VertexHandle u) { return pool_[u].alive; });
@@ -590,7 +590,7 @@ void VertexIndex<sac::Scope, D>::check_vertex(const Vertex<D>& v) const {
   SAC_INVARIANT(v.alive == (v.boundary || v.presence.there()));
   presences_.check_invariants(v.presence);
   if (v.presence.there()) {
-    SAC_INVARIANT(role(v) == role_from(engine_.call(v.presence.birth()), v));
+    SAC_INVARIANT(role(v) == role_from(engine_.call_at(v.presence.birth()), v));
   }
   observers_.check_invariants(v);
   int stars = 0;

@@ -312,7 +312,8 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   void produce(sac::Scope& s, Vertex<D>& v);
   void produced(sac::Scope& s, Vertex<D>& v, BirthEdge& edge, const Role& role) noexcept;
   [[nodiscard]] Role role_from(const sac::Call& producer, const Vertex<D>& v) const noexcept;
-  void run_again(sac::Handle call, const sac::Window& window, const sac::Edge* seen) noexcept;
+  void run_again(sac::Ref<sac::Call> call, const sac::Window& window,
+                 const sac::Edge* seen) noexcept;
   void take_role(Vertex<D>& v, const Role& role, const sac::Call& producer) noexcept;
   [[nodiscard]] bool concerns(const Vertex<D>& v, const Vertex<D>& center,
                               const Observation& o) const noexcept;

@@ -193,7 +193,7 @@ class Crowding<sac::Scope, Kind> : public sac::Structure {
  private:
   static constexpr std::uint8_t kCrowded = 0;
   struct CrowdedEdge : sac::Edge {
-    sac::Handle call;
+    sac::Ref<sac::Call> call;
     Witness witness;  // of now
     Piece piece;
     bool seen;    // the answer that the call had

@@ -56,7 +56,7 @@ void TracedLeaves::produce(sac::Scope& s, Leaf& leaf, std::uint8_t kind) {
   auto& edge = s.effect<LeafEdge>(id_, kind);
   edge.leaf = leaf.self;
   sac::Presence& presence = kind == kBegin ? leaf.begun : leaf.ended;
-  const sac::Handle self = engine_.handle_of(s.self());
+  const sac::Ref<sac::Call> self = engine_.handle_of(s.self());
   SAC_ENSURES(s.place() == self);  // calls of the program act before they call
   const auto window = presences_.produced(presence, edge, self);
   if (window.has_value()) changed(leaf, kind, *window);
@@ -97,7 +97,7 @@ void TracedLeaves::tell_vertices(const Leaf& leaf, Concerned&& concerned) noexce
   vertices_.for_each_in_ball(leaf.lo, leaf.hi, [&](const Vertex<2>& v) {
     if (v.boundary || v.input || !leaf.has_in_ball(v.p)) return;
     if (!v.on_segment) {
-      if (v.presence.there()) tell(engine_.call(v.presence.birth()), nullptr);
+      if (v.presence.there()) tell(engine_.call_at(v.presence.birth()), nullptr);
     } else if (records_.has_in_ball(leaf, v.p, vertices_.role(v))) {
       vertices_.for_each_cell_seen(v, [&](sac::Call& c, const sac::Edge& e) { tell(c, &e); });
     }
@@ -212,7 +212,7 @@ void TracedLeaves::check_invariants() const {
 void TracedLeaves::check_births() const {
   vertices_.pool().for_each([&](const Vertex<2>& v) {
     if (v.boundary || v.input || v.on_segment || !v.presence.there()) return;
-    const sac::Call& birth = engine_.call(v.presence.birth());
+    const sac::Call& birth = engine_.call_at(v.presence.birth());
     records_.for_each([&](const Leaf& leaf) {
       SAC_INVARIANT(!leaf.has_in_ball(v.p) || !is_leaf_for(leaf, birth));
     });

@@ -131,7 +131,7 @@ class Leaves<sac::Scope> : public sac::Structure {
   };
   struct AskEdge : sac::Edge {
     Point<2> x;
-    sac::Handle call;
+    sac::Ref<sac::Call> call;
     std::uint32_t count : 31;  // of leaves in the answer
     std::uint32_t listed : 1;  // in asks_
   };

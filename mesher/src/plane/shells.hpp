@@ -133,7 +133,7 @@ class Shells<sac::Scope> : public sac::Structure {
  private:
   static constexpr std::uint8_t kPlace = 0;
   struct PlaceEdge : sac::Edge {
-    sac::Handle call;
+    sac::Ref<sac::Call> call;
     sac::Handle next;  // about the same segment
     PieceRef piece;
     PieceSplit seen;

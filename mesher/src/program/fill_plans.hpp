@@ -66,7 +66,7 @@ class FillPlans<sac::Scope, D> final : public sac::Structure {
     Point<D> middle;       // of where the limits matter,
     double reach;          // which lies within this of it
     std::uint64_t answer;  // digest of the plan
-    sac::Handle call;
+    sac::Ref<sac::Call> call;
     bool listed;  // in looks_
   };
   [[nodiscard]] PlanEdge& at(sac::Handle h) const noexcept {

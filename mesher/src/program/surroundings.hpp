@@ -66,7 +66,7 @@ class Surroundings<sac::Scope, D> final : public sac::Structure, public FeatureL
     Cell<D> cell;
     Box<D> extent;         // what features change the answer lie in it
     std::uint64_t answer;  // digest of the rooms
-    sac::Handle call;
+    sac::Ref<sac::Call> call;
     bool listed;  // in asks_
   };
   [[nodiscard]] AskEdge& at(sac::Handle h) const noexcept {

@@ -30,7 +30,7 @@ struct Vertex {
   sac::Presence presence;         // the calls that insert it; the outside is not among them
   sac::Handle queries = 0;        // observations centred at it
   Reach<D> reach;                 // no query of it looks beyond
-  sac::Handle locator = 0;        // the call that observes `level`
+  sac::Ref<sac::Call> locator;    // the call that observes `level`
   VertexHandle next_changed = 0;  // in the list of what has changed since the last update
   std::int16_t level = -1;        // input points: deepest crowded level
   bool alive : 1 = false;

@@ -99,7 +99,7 @@ class Rows<sac::Scope, Key, Item, Order> final : public sac::Structure {
     Place row;
   };
   struct Look : sac::Edge {
-    sac::Handle place;
+    sac::Place place;
     List* list;
     Place saw;  // the end: no row
     Look* next;
@@ -113,7 +113,7 @@ class Rows<sac::Scope, Key, Item, Order> final : public sac::Structure {
   [[nodiscard]] List& list_of(const Key& key) { return lists_.try_emplace(key, key).first->second; }
   [[nodiscard]] std::optional<Item> look(sac::Scope& s, const Key& key, const Item* after);
   [[nodiscard]] Look& ask(sac::Scope& s, List& list, const Item* after);
-  [[nodiscard]] Place first_seen(List& list, const Item* after, sac::Handle by) const;
+  [[nodiscard]] Place first_seen(List& list, const Item* after, sac::Place by) const;
   [[nodiscard]] static Look*& looks_at(List& list, Place row) {
     return row == list.rows.end() ? list.ends : row->second.looks;
   }
@@ -181,7 +181,7 @@ auto Rows<sac::Scope, Key, Item, Order>::ask(sac::Scope& s, List& list, const It
 
 template <class Key, class Item, class Order>
 auto Rows<sac::Scope, Key, Item, Order>::first_seen(List& list, const Item* after,
-                                                    sac::Handle by) const -> Place {
+                                                    sac::Place by) const -> Place {
   Place row = after == nullptr ? list.rows.begin() : list.rows.upper_bound(*after);
   while (row != list.rows.end() && !presences_.seen_at(row->second.presence, by)) ++row;
   return row;
@@ -215,8 +215,8 @@ void Rows<sac::Scope, Key, Item, Order>::came(List& list, Place row,
       }
     }
     if (at == list.rows.end()) return;
-    const sac::Handle birth = at->second.presence.birth();
-    if (birth != 0 && !engine_.precedes(*window.after, engine_.time(birth))) return;
+    const sac::Place birth = at->second.presence.birth();
+    if (birth != nullptr && !engine_.precedes(*window.after, engine_.time(birth))) return;
   }
 }
 template <class Key, class Item, class Order>

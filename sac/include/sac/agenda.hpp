@@ -31,6 +31,7 @@
 #include <vector>
 
 #include "sac/engine.hpp"
+#include "sac/internal/chain.hpp"
 #include "sac/internal/sorted_index.hpp"
 #include "sac/key.hpp"
 #include "sac/scope.hpp"
@@ -92,7 +93,23 @@ struct Posted {
   }();
 };
 
+template <auto F, class... P>
+Posted<F, P...> posted(Types<P...>);
+template <auto F, class... Args>
+using PostBy = decltype(posted<F>(parameters<F, false, Arrived<Args>...>()));
+
 }  // namespace detail
+
+/// The posts of a call that count are chained; a post that does not count now is its own
+/// predecessor.
+struct PostEdge : Edge {
+  Ref<Call> target;
+  Place place;  // of the post; null: from outside; such posts are in no call's list
+  Ref<PostEdge> next_post;
+  Ref<PostEdge> previous_post;
+};
+static_assert(sizeof(PostEdge) == 24);
+using Posts = detail::Chain<PostEdge, &PostEdge::previous_post, &PostEdge::next_post>;
 
 /// A work queue of calls, run in the order of their keys.
 class Agenda final : public WorkQueue {
@@ -116,7 +133,7 @@ class Agenda final : public WorkQueue {
   void post_from_outside(const Key& key, Args&&... args) {
     engine_.begin_edit("post_from_outside");
     const auto label = label_of<F>(std::forward<Args>(args)...);
-    const Handle post = outside_post(turn_of(key, label), label.asked());
+    const Ref<PostEdge> post = outside_post(turn_of(key, label), label.asked());
     try {
       engine_.on_rollback([this, label] { drop_outside(require_posted(label.asked())); });
     } catch (...) {
@@ -129,8 +146,8 @@ class Agenda final : public WorkQueue {
   void retract_from_outside(Args&&... args) {
     engine_.begin_edit("retract_from_outside");
     const auto label = label_of<F>(std::forward<Args>(args)...);
-    const Handle post = require_posted(label.asked());
-    const Entry turn = entry_of(*core_.at<Call>(post_at(post).target));
+    const Ref<PostEdge> post = require_posted(label.asked());
+    const Entry turn = entry_of(core_.at(core_.at(post).target));
     engine_.on_rollback([this, turn, label] { outside_post(turn, label.asked()); });
     drop_outside(post);
   }
@@ -161,17 +178,8 @@ class Agenda final : public WorkQueue {
   struct Entry {
     std::uint64_t order = 0;
     std::uint32_t rank = 0;
-    Handle call = 0;  // 0: a turn that no call has yet
+    Ref<Call> call{};  // null: a turn that no call has yet
   };
-  // The posts of a call that count are chained; a post that does not count now is its own
-  // predecessor.
-  struct PostEdge : Edge {
-    Handle target;
-    Handle place;  // of the post; 0: from outside; such posts are in no call's list
-    Handle next_post;
-    Handle previous_post;
-  };
-  static_assert(sizeof(PostEdge) == 24);
   struct Drain;
   static constexpr std::uint8_t kPost = 0;
   static constexpr std::uint8_t kDrain = 1;
@@ -180,46 +188,40 @@ class Agenda final : public WorkQueue {
   // a different object after the roll-back.
   template <auto F, class... Args>
   auto label_of(Args&&... args) const {
-    return label_as<F>(detail::parameters<F, false, detail::Arrived<Args>...>(),
-                       std::forward<Args>(args)...);
-  }
-  template <auto F, class... P, class... Args>
-  auto label_as(detail::Types<P...>, Args&&... args) const {
-    auto label = detail::make_label<detail::Posted<F, P...>>(std::forward<Args>(args)...);
-    if (!detail::reflexive(label.args)) fail_irreflexive(label.describe(core_.at<void>(0)));
+    auto label = detail::make_label<detail::PostBy<F, Args...>>(std::forward<Args>(args)...);
+    if (!detail::reflexive(label.args)) fail_irreflexive(label.describe(&core_.arena().header()));
     return label;
   }
   [[noreturn]] static void fail_irreflexive(const std::string& call);
   template <class Label>
   [[nodiscard]] Entry turn_of(const Key& key, const Label& label) const {
     if (!widths_.fits(key)) [[unlikely]]
-      widths_.fail(key, label.describe(core_.at<void>(0)), name_);
+      widths_.fail(key, label.describe(&core_.arena().header()), name_);
     return {key.order, widths_.rank(key)};
   }
 
   // post.cpp
   void post_call(Scope& s, const Entry& turn, const Asked& asked);
   template <class Check>
-  Handle posted_call(Handle known, const Entry& turn, const Asked& asked, Check&& check);
-  [[nodiscard]] Handle find_posted(const Entry& turn, const Asked& asked);
+  Ref<Call> posted_call(Ref<Call> known, const Entry& turn, const Asked& asked, Check&& check);
+  [[nodiscard]] Ref<Call> find_posted(const Entry& turn, const Asked& asked);
   [[nodiscard]] static bool has_turn(const Call& call, const Entry& turn) noexcept;
-  Handle create(const Entry& turn, const Asked& asked);
-  void add_waiting(Handle call);
-  Handle outside_post(const Entry& turn, const Asked& asked);
-  void drop_outside(Handle post) noexcept;
-  [[nodiscard]] Handle require_posted(const Asked& asked) const;
+  Ref<Call> create(const Entry& turn, const Asked& asked);
+  void add_waiting(Ref<Call> call);
+  Ref<PostEdge> outside_post(const Entry& turn, const Asked& asked);
+  void drop_outside(Ref<PostEdge> post) noexcept;
+  [[nodiscard]] Ref<PostEdge> require_posted(const Asked& asked) const;
   void require_turn(const Call& call, const Entry& turn) const;
   [[nodiscard]] bool in_future(const Call& posted) const;
   void require_future(const Call& poster, const Call& posted) const;
-  [[nodiscard]] PostEdge& post_at(Handle h) const noexcept { return *core_.at<PostEdge>(h); }
-  [[nodiscard]] bool counts(const PostEdge& post) const noexcept {
-    return post.previous_post != engine_.arena().handle_of(&post);
+  [[nodiscard]] static bool counts(const PostEdge& post) noexcept {
+    return post.previous_post != Arena::ref(post);
   }
-  void add_post(PostEdge& post, Handle target) noexcept;
+  void add_post(PostEdge& post, Ref<Call> target) noexcept;
   void drop_post(PostEdge& post) noexcept;
   void chain_unposted(Call& call) noexcept;
   void unchain(Call& call) noexcept;
-  void drop_waiting(Handle call) noexcept;
+  void drop_waiting(Ref<Call> call) noexcept;
   void drop_unposted() noexcept;
   bool take_from_class(Call& call) noexcept;
 
@@ -229,14 +231,14 @@ class Agenda final : public WorkQueue {
     return [this](const Entry& a, const Entry& b) {
       if (a.rank != b.rank) return a.rank < b.rank;
       if (a.order != b.order) return a.order < b.order;
-      return a.call != b.call && before(*core_.at<Call>(a.call), *core_.at<Call>(b.call));
+      return a.call != b.call && before(core_.at(a.call), core_.at(b.call));
     };
   }
   [[nodiscard]] Entry entry_of(const Call& call) const noexcept {
     return {Slot::of(call).order, Slot::of(call).rank, engine_.handle_of(call)};
   }
-  [[nodiscard]] Handle stamp_before(const Call& call) const;
-  void place(Handle call);
+  [[nodiscard]] Place stamp_before(const Call& call) const;
+  void place(Ref<Call> call);
   void put(const Entry& entry);
   void take_from_index(const Call& call) noexcept;
   template <class Visit>
@@ -263,10 +265,10 @@ class Agenda final : public WorkQueue {
   // Other calls that wait, by rank, in the order of their posts: they come into calls_ when the
   // drain has come to their rank.
   std::map<std::uint32_t, std::vector<Entry>> classes_;
-  Handle unposted_ = 0;  // calls that wait and that nobody posts now, chained
+  Place unposted_;  // calls that wait and that nobody posts now, chained
   std::uint64_t waiting_calls_ = 0;
-  Handle drain_call_ = 0;
-  Handle running_ = 0;  // the posted call that the drain runs
+  Ref<Call> drain_call_;
+  Ref<Call> running_;  // the posted call that the drain runs
 };
 
 }  // namespace sac

@@ -14,9 +14,12 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <new>
+#include <utility>
 #include <vector>
 
 #include "sac/internal/platform.hpp"
@@ -27,6 +30,28 @@ struct Function;
 
 /// A 32-bit handle of an object in an arena; 0 is null.
 using Handle = std::uint32_t;
+
+/// The handle of a T; null by default. A type of its own for each T: what lies there is known.
+template <class T>
+class Ref {
+ public:
+  constexpr Ref() = default;
+  constexpr Ref(std::nullptr_t) noexcept {}
+  /// Requires: a T lies there, or the handle is 0.
+  constexpr explicit Ref(Handle handle) noexcept : handle_(handle) {}
+  /// A record begins with its base.
+  template <class Derived>
+  requires(!std::same_as<Derived, T> &&
+           std::derived_from<Derived, T>) constexpr Ref(Ref<Derived> derived) noexcept
+      : handle_(derived.handle()) {}
+
+  [[nodiscard]] constexpr Handle handle() const noexcept { return handle_; }
+  constexpr explicit operator bool() const noexcept { return handle_ != 0; }
+  friend constexpr bool operator==(Ref a, Ref b) noexcept { return a.handle_ == b.handle_; }
+
+ private:
+  Handle handle_ = 0;
+};
 
 /// The memory of an engine.
 class Arena {
@@ -79,22 +104,52 @@ class Arena {
     free_[granules] = handle;
   }
 
+  /// Allocates memory for a T and makes one. Throws: std::bad_alloc, and what its constructor
+  /// throws.
+  template <class T, class... Args>
+  [[nodiscard]] Ref<T> make(Args&&... args) {
+    const Ref<T> fresh(allocate(sizeof(T)));
+    try {
+      ::new (at<void>(fresh.handle())) T(std::forward<Args>(args)...);
+    } catch (...) {
+      release(fresh, sizeof(T));
+      throw;
+    }
+    return fresh;
+  }
+  /// Frees a block of `bytes` that begins with a T, which is destroyed already or needs no
+  /// destroying. Requires: allocate(bytes) returned its handle.
+  template <class T>
+  void release(Ref<T> object, std::size_t bytes = sizeof(T)) noexcept {
+    release(object.handle(), bytes);
+  }
+
+  /// The object of a handle that is not null.
+  template <class T>
+  [[nodiscard]] T& operator[](Ref<T> ref) const noexcept {
+    return *at<T>(ref.handle());
+  }
   template <class T>
   [[nodiscard]] T* at(Handle handle) const noexcept {
     return reinterpret_cast<T*>(base_ + std::size_t{handle} * kGranule);
   }
-  [[nodiscard]] Handle handle_of(const void* object) const noexcept { return locate(object); }
+  template <class T>
+  [[nodiscard]] static Ref<T> ref(const T& object) noexcept {
+    return Ref<T>(handle_of(&object));
+  }
   [[nodiscard]] bool contains(const void* object) const noexcept {
     return static_cast<std::size_t>(static_cast<const std::byte*>(object) - base_) <
            next_ * kGranule;
   }
-  [[nodiscard]] bool contains(Handle handle, std::size_t bytes) const noexcept {
-    return handle != 0 && handle + granules_for(bytes) <= next_;
+  /// Whether there is room for a T at any handle, be it one of a T or not.
+  template <class T>
+  [[nodiscard]] bool contains(Ref<T> ref) const noexcept {
+    return ref && ref.handle() + granules_for(sizeof(T)) <= next_;
   }
   [[nodiscard]] Header& header() const noexcept { return *reinterpret_cast<Header*>(base_); }
 
   /// The handle of an object in some arena.
-  [[nodiscard]] static Handle locate(const void* object) noexcept {
+  [[nodiscard]] static Handle handle_of(const void* object) noexcept {
     return static_cast<Handle>((reinterpret_cast<std::uintptr_t>(object) & (kReserve - 1)) /
                                kGranule);
   }
@@ -107,9 +162,9 @@ class Arena {
   }
   /// The object with this handle in the arena of `neighbour`.
   template <class T>
-  [[nodiscard]] static T* in_arena_of(const void* neighbour, Handle handle) noexcept {
-    return reinterpret_cast<T*>((reinterpret_cast<std::uintptr_t>(neighbour) & ~(kReserve - 1)) +
-                                handle * kGranule);
+  [[nodiscard]] static T& in_arena_of(const void* neighbour, Ref<T> ref) noexcept {
+    return *reinterpret_cast<T*>((reinterpret_cast<std::uintptr_t>(neighbour) & ~(kReserve - 1)) +
+                                 ref.handle() * kGranule);
   }
 
   /// A number for an object in some arena: unique among all arenas, until kMostStamps further

@@ -91,8 +91,9 @@ struct FunctionProfile {
   std::uint64_t edge_bytes = 0;
 };
 
-/// Runs a program and keeps its trace up to date under edits.
-class Engine {
+/// Runs a program and keeps its trace up to date under edits. It is the core, with the functions
+/// for clients; those of the core that structures need are named here, and written there.
+class Engine : Core {
  public:
   Engine();
   ~Engine();
@@ -139,7 +140,7 @@ class Engine {
   /// Sets the name of a modifiable in messages.
   template <class T, class Same>
   void name(Mod<T, Same> mod, std::string name) {
-    core_.settings.names[mod.head()] = std::move(name);
+    settings.names[mod.head().handle()] = std::move(name);
   }
   /// Names modifiables `name[0]`, `name[1]`, ...
   template <std::ranges::input_range R>
@@ -163,15 +164,11 @@ class Engine {
   void on_change(Mod<T, Same> mod, std::type_identity_t<std::function<void(const T&)>> f);
   /// Calls none of its functions any more.
   template <class T, class Same>
-  void unwatch(Mod<T, Same> mod) noexcept {
-    unwatch(mod.head());
-  }
+  void unwatch(Mod<T, Same> mod) noexcept;
   /// Whether the last run or propagation has changed a modifiable that is watched; one that failed
   /// has changed nothing.
   template <class T, class Same>
-  [[nodiscard]] bool changed(Mod<T, Same> mod) const noexcept {
-    return changed(mod.head());
-  }
+  [[nodiscard]] bool changed(Mod<T, Same> mod) const noexcept;
 
   /// Runs f(scope, args...) at the end of the trace. Edits made before can no longer be undone.
   /// Throws: exceptions of the program, after undoing all of its effects.
@@ -197,7 +194,7 @@ class Engine {
   /// parts must be modifiables or structures.
   template <class T>
   void set_environment(T* environment) noexcept {
-    core_.settings.environment = {
+    settings.environment = {
         const_cast<std::remove_const_t<T>*>(environment),
         environment != nullptr ? &detail::kTypeName<std::remove_const_t<T>> : nullptr};
   }
@@ -208,19 +205,19 @@ class Engine {
   void set_progress(std::function<bool(const Progress&)> report, std::uint64_t every = 1024);
 
   /// Reports all events to `observer`; null: to none. See EventLog.
-  void set_observer(Observer* observer) noexcept { core_.settings.observer = observer; }
-  [[nodiscard]] Observer* observer() const noexcept { return core_.settings.observer; }
+  void set_observer(Observer* observer) noexcept { settings.observer = observer; }
+  [[nodiscard]] Observer* observer() const noexcept { return settings.observer; }
 
   /// Limits the native stack of nested calls, in bytes, counted from run() or propagate(); calls
   /// beyond the limit throw UsageError. The default is 3/4 of the process's limit (RLIMIT_STACK; 2
   /// MiB if there is none). Set it for threads with less stack, and if the client's own frames need
   /// more. A roll-back may use an eighth more.
-  void set_stack_limit(std::size_t bytes) noexcept { core_.settings.stack_limit = bytes; }
+  void set_stack_limit(std::size_t bytes) noexcept { settings.stack_limit = bytes; }
 
   /// Turns on the audit, which detects calls that break conciseness or monotonicity. Cost: a table
   /// look-up for each call.
-  void set_audit(bool on) noexcept { core_.settings.audit = on; }
-  [[nodiscard]] const AuditReport& audit() const noexcept { return core_.report(); }
+  void set_audit(bool on) noexcept { settings.audit = on; }
+  using Core::audit;
 
   /// Records the weights that calls report by Scope::weigh from now on; 16 bytes for each report.
   /// Call it before the first run: existing calls have no weight until they run again.
@@ -229,8 +226,8 @@ class Engine {
   /// The sum of the weights that `call` reported by Scope::weigh. Cost: O(its edges).
   [[nodiscard]] std::uint64_t weight_of(const Call& call) const noexcept;
 
-  [[nodiscard]] std::uint64_t live_calls() const noexcept { return core_.live_calls(); }
-  [[nodiscard]] std::uint64_t live_edges() const noexcept { return core_.live_edges(); }
+  using Core::live_calls;
+  using Core::live_edges;
   /// The memory that the trace uses: memory().live(). Cost: O(modifiables with several writers).
   [[nodiscard]] std::size_t bytes() const noexcept { return memory().live(); }
   [[nodiscard]] Memory memory() const noexcept;
@@ -242,18 +239,15 @@ class Engine {
   /// Limits the bytes of calls and edges that the trace may hold; beyond the limit it throws
   /// std::bad_alloc. Undoing edits is not limited.
   void set_memory_limit(std::size_t bytes) noexcept { arena().set_limit(bytes); }
-  [[nodiscard]] bool idle() const noexcept { return core_.idle(); }
+  using Core::idle;
 
-  /// Calls visit(call, depth) for every placed call, in pre-order.
-  template <class Visit>
-  void walk(Visit&& visit) const {
-    core_.walk(std::forward<Visit>(visit));
-  }
+  /// walk(visit) calls visit(call, depth) for every placed call, in pre-order.
+  using Core::walk;
 
   /// `name(arguments)`.
   [[nodiscard]] static std::string describe(const Call& call);
   /// The name of a modifiable in messages: `modifiable 'price' (@7)`.
-  [[nodiscard]] std::string describe_mod(Handle head) const;
+  [[nodiscard]] std::string describe_mod(ModRef mod) const;
 
   /// Checks the trace, and every structure. Throws: InvariantError. Cost: O(trace).
   void check_invariants() const;
@@ -264,16 +258,13 @@ class Engine {
 
   /// Registers a structure and returns the number that its edges carry. The structure must outlive
   /// the trace, or live until remove_structure(). Throws: UsageError beyond 255.
-  std::uint8_t add_structure(Structure& structure) { return core_.add_structure(structure); }
+  using Core::add_structure;
   /// Unregisters a structure. Requires: no call has an edge of it.
-  void remove_structure(std::uint8_t number) noexcept { core_.remove_structure(number); }
+  using Core::remove_structure;
 
   /// Call it before an edit from outside. Throws: UsageError if the engine runs or is broken.
   /// `what` names the edit.
-  void begin_edit(const char* what = "edit") const {
-    core_.require_usable();
-    core_.require_idle(what);
-  }
+  void begin_edit(const char* what = "edit") const;
   /// Registers how to undo an edit if the next propagation fails; cleared when it succeeds. `undo`:
   /// a function without arguments. Throws: std::bad_alloc.
   void on_rollback(auto undo) { rollback_.emplace_back(std::move(undo)); }
@@ -284,76 +275,56 @@ class Engine {
   /// comparisons of arguments; the engine is then broken.
   void undo_edits();
 
-  /// The observation of a call at this place (Scope::place) may have changed: the call will run
-  /// again. `seen` names the observation for observers: its edge.
-  void invalidate(Handle place, const Edge* seen = nullptr) noexcept {
-    core_.invalidate(place, seen);
-  }
-  /// The same for a call whose observations all precede its children.
-  void invalidate(const Call& call, const Edge* seen = nullptr) noexcept {
-    core_.invalidate(handle_of(call), seen);
-  }
-  /// Puts a call in doubt: it will run again if, when its turn comes, Structure::unchanged returns
-  /// false for one of its edges from this place on. `source` names the modifiable for observers; 0:
-  /// none.
-  void doubt(Handle place, Handle source = 0) noexcept { core_.doubt(place, source); }
-  void doubt(const Call& call, Handle source = 0) noexcept { core_.doubt(handle_of(call), source); }
+  /// invalidate(place, seen): the observation of a call at this place (Scope::place) may have
+  /// changed: the call will run again. `seen` names the observation for observers: its edge; null:
+  /// none. With a call instead of a place: one whose observations all precede its children.
+  using Core::invalidate;
+  /// doubt(place, source) puts a call in doubt: it will run again if, when its turn comes,
+  /// Structure::unchanged returns false for one of its edges from this place on. `source` names the
+  /// modifiable for observers; null: none. Also with a call.
+  using Core::doubt;
   /// The call that has this place, and the place as a time stamp.
-  [[nodiscard]] Call& call_at(Handle place) const noexcept { return core_.call_at(place); }
-  [[nodiscard]] const TimeNode& time(Handle place) const noexcept {
-    return *core_.at<TimeNode>(place);
-  }
-  [[nodiscard]] bool precedes(const TimeNode& a, const TimeNode& b) const noexcept {
-    return core_.precedes(a, b);
-  }
+  using Core::call_at;
+  [[nodiscard]] const TimeNode& time(Place place) const noexcept { return at(place); }
+  using Core::precedes;
   /// Whether `call` lies ahead: behind everything that the running call has done.
-  [[nodiscard]] bool lies_ahead(const Call& call) const noexcept { return core_.lies_ahead(call); }
-  [[nodiscard]] Call& call(Handle handle) const noexcept { return *core_.at<Call>(handle); }
-  [[nodiscard]] Handle handle_of(const Call& call) const noexcept {
-    return arena().handle_of(&call);
-  }
+  using Core::lies_ahead;
+  [[nodiscard]] Call& call(Ref<Call> call) const noexcept { return at(call); }
+  [[nodiscard]] Ref<Call> handle_of(const Call& call) const noexcept { return Arena::ref(call); }
   /// True while a first run appends to the trace: every existing call precedes the running one.
-  [[nodiscard]] bool appending() const noexcept { return core_.appending(); }
+  using Core::appending;
   /// True while a failed propagation is undone.
-  [[nodiscard]] bool undoing() const noexcept { return core_.undoing(); }
+  using Core::undoing;
   /// True if no call waits to run again.
-  [[nodiscard]] bool settled() const noexcept { return core_.settled(); }
-  /// Reports an event, caused by the running call, to the observer if there is one.
-  void note(Event::Kind kind, const Call* call = nullptr, Handle source = 0) noexcept {
-    core_.note(kind, call, source);
-  }
+  using Core::settled;
+  /// note(kind, call, source) reports an event, caused by the running call, to the observer if
+  /// there is one.
+  using Core::note;
   /// The store for values that a propagation replaces and that recomputing would not restore; null:
   /// not needed.
   [[nodiscard]] Originals* originals() noexcept {
-    return idle() || appending() ? nullptr : &core_.originals();
+    return idle() || appending() ? nullptr : &Core::originals();
   }
   /// The structure that `edge` belongs to.
-  [[nodiscard]] const Structure& structure_of(const Edge& edge) const noexcept {
-    return core_.structure(edge.structure);
-  }
-  /// Calls visit(edge) for the effects and observations of `call`, in their order.
-  template <class Visit>
-  void for_each_edge(const Call& call, Visit&& visit) const {
-    for (Handle e = call.edges; e != 0; e = core_.at<Edge>(e)->next) {
-      const Edge& edge = *core_.at<Edge>(e);
-      if (!edge.begins_segment) visit(edge);
-    }
-  }
-  /// Whether `h` is the place of a call in the trace; any handle is allowed.
-  [[nodiscard]] bool is_live_place(Handle h) const noexcept { return core_.is_live_place(h); }
-  [[nodiscard]] Arena& arena() noexcept { return core_.arena(); }
-  [[nodiscard]] const Arena& arena() const noexcept { return core_.arena(); }
+  using Core::structure_of;
+  /// for_each_edge(call, visit) calls visit(edge) for the effects and observations of the call, in
+  /// their order.
+  using Core::for_each_edge;
+  /// Whether a call in the trace has this place; any handle is allowed.
+  using Core::is_live_place;
+  /// The memory of calls, edges and values; structures may use it.
+  using Core::arena;
   /// The call whose body runs; null: none.
-  [[nodiscard]] const Call* running_call() const noexcept { return core_.running_call(); }
-  /// The beginning of a message: the running call, if there is one, then `what`.
-  [[nodiscard]] std::string context(const char* what) const { return core_.context(what); }
+  using Core::running_call;
+  /// context(what) is the beginning of a message: the running call, if there is one, then `what`.
+  using Core::context;
 
   // --- Internal: for the library's own headers -----------------------------------------------
 
-  void touched(Handle head) noexcept;  // a watched modifiable
+  void touched(ModRef mod) noexcept;  // a watched modifiable
   void forget_watches(Handle from, std::size_t bytes) noexcept;
 
-  [[nodiscard]] Core& core() noexcept { return core_; }
+  [[nodiscard]] Core& core() noexcept { return *this; }
   [[nodiscard]] ModStructure& mods() noexcept { return *mods_; }
   [[nodiscard]] Queries& queries() {
     if (queries_ == nullptr) [[unlikely]]
@@ -371,7 +342,7 @@ class Engine {
   [[nodiscard]] T& make_inside(Args&&... args);
   template <class T>
   void free_inside(T& object) noexcept {
-    free_outside(arena().handle_of(reinterpret_cast<OutsideHead*>(&object) - 1));
+    free_outside(Arena::ref(reinterpret_cast<OutsideHead*>(&object)[-1]));
   }
   void add_weight(Scope& s, std::uint64_t n);
 
@@ -389,42 +360,32 @@ class Engine {
   template <class T>
   static constexpr OutsideType kOutsideType{sizeof(OutsideHead) + sizeof(T),
                                             [](void* object) { static_cast<T*>(object)->~T(); }};
-  [[nodiscard]] OutsideHead* outside_head(Handle h) const noexcept {
-    return core_.at<OutsideHead>(h);
-  }
-  [[nodiscard]] Handle new_outside(const OutsideType& type);
+  [[nodiscard]] Ref<OutsideHead> new_outside(const OutsideType& type);
   void release_outside(void* object, const char* kind);
   void require_released_unused() const {
     if (!released_.empty()) require_unused();
   }
   void require_unused() const;
   void free_released() noexcept;
-  void free_outside(Handle h) noexcept;
+  void free_outside(Ref<OutsideHead> object) noexcept;
   void make_queries();
   template <class T, class Same>
   [[nodiscard]] detail::TypedWatch<T, Same>& watch_of(Mod<T, Same> mod);
-  [[nodiscard]] detail::Watches& watches();
-  void unwatch(Handle head) noexcept;
-  [[nodiscard]] bool changed(Handle head) const noexcept;
-  void prepare_changes();
-  Counts finish_changes();
-  void forget_changes() noexcept;
+  void conclude();
+  Counts finish_all();
   void undo_edits_behind(std::size_t edits);
   void roll_back() noexcept;
   void forget_edits() noexcept;
   Counts run_root(const Asked& asked);
-  template <auto F, class... P, class... Args>
-  Counts run_as(detail::Types<P...>, Args&&... args);
 
-  Core core_;
   std::unique_ptr<ModStructure> mods_;
-  std::unique_ptr<detail::Watches> watches_;  // null: nothing is watched
-  std::unique_ptr<Queries> queries_;          // null: no call has asked for one
-  std::unique_ptr<Weights> weights_;          // null: not recorded
+  std::unique_ptr<detail::Watches> watches_;
+  std::unique_ptr<Queries> queries_;  // null: no call has asked for one
+  std::unique_ptr<Weights> weights_;  // null: not recorded
   std::vector<std::unique_ptr<Agenda>> agendas_;
   Registry<OutsideType> outside_types_;
-  std::vector<Handle> outside_;   // objects made from outside, by their heads
-  std::vector<Handle> released_;  // those to be freed when the edits are final
+  std::vector<Ref<OutsideHead>> outside_;   // objects made from outside
+  std::vector<Ref<OutsideHead>> released_;  // those to be freed when the edits are final
   std::vector<detail::Undo> rollback_;
 };
 

@@ -178,7 +178,7 @@ void print_argument(std::ostream& out, const T& value, const void* neighbour = n
     if (value == nullptr) {
       out << "null";
     } else if (neighbour != nullptr && Arena::same_arena(value, neighbour)) {
-      out << '@' << Arena::locate(value);
+      out << '@' << Arena::handle_of(value);
     } else {
       out << static_cast<const void*>(value);
     }
@@ -211,7 +211,7 @@ class LabelSink {
 
 template <class T, class Same>
 void label_bytes(LabelSink& sink, const Mod<T, Same>& mod) {
-  sink.handle(mod.head());
+  sink.handle(mod.head().handle());
 }
 
 // A template, since Agenda is incomplete here.
@@ -298,11 +298,13 @@ void label_arguments(LabelSink& sink, const std::tuple<Args...>& args) {
 namespace detail {
 
 // The compiler's spelling of F, cut out of the name of this function.
+[[nodiscard]] constexpr std::string_view spelling(std::string_view parameter, std::string_view s) {
+  s.remove_prefix(s.find(parameter) + parameter.size());
+  return s.substr(0, s.find_first_of(";]"));
+}
 template <auto F>
 [[nodiscard]] constexpr std::string_view spelled() {
-  std::string_view s = __PRETTY_FUNCTION__;
-  s.remove_prefix(s.find("F = ") + 4);
-  s = s.substr(0, s.find_first_of(";]"));
+  std::string_view s = spelling("F = ", __PRETTY_FUNCTION__);
   if (s.starts_with('&')) s.remove_prefix(1);
   if (const auto brace = s.find_last_of("{(");
       brace != s.npos && (s.back() == '}' || s.back() == ')')) {
@@ -315,9 +317,7 @@ template <auto F>
 // The same for a type, which every compiler spells alike: some write an object as {}.
 template <class T>
 [[nodiscard]] constexpr std::string_view spelled_type() {
-  std::string_view s = __PRETTY_FUNCTION__;
-  s.remove_prefix(s.find("T = ") + 4);
-  s = s.substr(0, s.find_first_of(";]"));
+  const std::string_view s = spelling("T = ", __PRETTY_FUNCTION__);
   if (s.find("lambda") != s.npos) return "lambda";
   return s;
 }

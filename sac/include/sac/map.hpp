@@ -123,25 +123,26 @@ class TracedMap final : public Structure,
                 "object as the key");
   friend class MapApi<TracedMap, K, V, Scope, M...>;
 
-  using Entries = MapEntries<K, V, M...>;
+  struct Contribution;
+  using Entries = MapEntries<K, V, Contribution, M...>;
   using Entry = typename Entries::Entry;
   struct Nothing {};
 
   // A put, an add, or a set, which is in no call's list. One that is set aside does not count: it
   // lies behind a query that has come before it, and its call will run again.
   struct Contribution : Edge {
-    Handle place;  // 0: of the outside
-    Handle entry;  // 0: memory ran out before it had one
-    TreapLinks links;
+    Place place;       // null: of the outside
+    Ref<Entry> entry;  // null: memory ran out before it had one
+    TreapLinks<Contribution> links;
     bool counts;
     [[no_unique_address]] std::conditional_t<kSums, Raw<V>, Nothing> amount;
   };
   // A query, by its span.
   struct Looker : Edge {
-    Handle place;
-    TreapLinks links;
-    Handle reach;  // the looker below, or itself, whose span ends last; 0: not known
-    bool made;     // its span and what follows are there
+    Place place;
+    TreapLinks<Looker> links;
+    Ref<Looker> reach;  // the one below, or itself, whose span ends last; null: not known
+    bool made;          // its span and what follows are there
     bool linked;
     Raw<Span<K>> span;
   };
@@ -189,46 +190,50 @@ class TracedMap final : public Structure,
   struct Contributions {
     using Node = Contribution;
     Engine& engine;
-    [[nodiscard]] Contribution& node(Handle h) const noexcept {
-      return *engine.arena().template at<Contribution>(h);
+    [[nodiscard]] Contribution& node(Ref<Contribution> c) const noexcept {
+      return engine.arena()[c];
     }
-    [[nodiscard]] static std::uint64_t priority(Handle h) noexcept { return mix(h); }
+    [[nodiscard]] static std::uint64_t priority(Ref<Contribution> c) noexcept {
+      return mix(c.handle());
+    }
     static bool update(Contribution&) noexcept { return false; }
-    [[nodiscard]] static bool names(const Contribution&, Handle) noexcept { return false; }
+    [[nodiscard]] static bool names(const Contribution&, Ref<Contribution>) noexcept {
+      return false;
+    }
   };
   using Parts = Treap<Contributions>;
   // The queries of all calls, by the beginnings of their spans: an interval tree.
   struct Lookers {
     using Node = Looker;
     Engine& engine;
-    Handle root = 0;
-    Handle last = 0;
-    [[nodiscard]] Looker& node(Handle h) const noexcept {
-      return *engine.arena().template at<Looker>(h);
-    }
-    [[nodiscard]] const Span<K>& span(Handle h) const noexcept { return node(h).span.get(); }
-    [[nodiscard]] static std::uint64_t priority(Handle h) noexcept { return mix(h); }
+    Ref<Looker> root{};
+    Ref<Looker> last{};
+    [[nodiscard]] Looker& node(Ref<Looker> l) const noexcept { return engine.arena()[l]; }
+    [[nodiscard]] const Span<K>& span(Ref<Looker> l) const noexcept { return node(l).span.get(); }
+    [[nodiscard]] static std::uint64_t priority(Ref<Looker> l) noexcept { return mix(l.handle()); }
     bool update(Looker& l) const noexcept {
-      const Handle reach = l.reach;
+      const Ref<Looker> reach = l.reach;
       try {
-        l.reach = engine.arena().handle_of(&l);
-        for (const Handle child : {l.links.left, l.links.right}) {
-          if (child == 0 || l.reach == 0) continue;
-          const Handle other = node(child).reach;
-          if (other == 0 || span(l.reach).ends_before(span(other))) l.reach = other;
+        l.reach = Arena::ref(l);
+        for (const Ref<Looker> child : {l.links.left, l.links.right}) {
+          if (child == nullptr || l.reach == nullptr) continue;
+          const Ref<Looker> other = node(child).reach;
+          if (other == nullptr || span(l.reach).ends_before(span(other))) l.reach = other;
         }
       } catch (...) {  // client code failed: all may end behind any key
-        l.reach = 0;
+        l.reach = nullptr;
       }
       return l.reach != reach;
     }
-    [[nodiscard]] static bool names(const Looker& l, Handle h) noexcept { return l.reach == h; }
+    [[nodiscard]] static bool names(const Looker& l, Ref<Looker> other) noexcept {
+      return l.reach == other;
+    }
     void link(Looker& l);
     void unlink(Looker& l) noexcept;
     template <class Visit>
-    void at_key(Handle h, const K& key, Visit& visit) const;
+    void at_key(Ref<Looker> h, const K& key, Visit& visit) const;
     template <class Visit>
-    void all(Handle h, Visit& visit) const;
+    void all(Ref<Looker> h, Visit& visit) const;
   };
   using Links = Treap<Lookers>;
 
@@ -240,14 +245,13 @@ class TracedMap final : public Structure,
     return entries_;
   }
   [[nodiscard]] Contributions contributions() const noexcept { return {engine_}; }
-  [[nodiscard]] Contribution& part(Handle h) const noexcept { return contributions().node(h); }
-  [[nodiscard]] Handle handle_of(const Contribution& c) const noexcept {
-    return engine_.arena().handle_of(&c);
+  [[nodiscard]] Contribution& part(Ref<Contribution> c) const noexcept {
+    return engine_.arena()[c];
   }
   // Whether `edge`, at `place`, is not there yet for the call that is at `now`.
-  [[nodiscard]] bool is_behind(const Edge& edge, Handle place, Handle now) const noexcept {
+  [[nodiscard]] bool is_behind(const Edge& edge, Place place, Place now) const noexcept {
     if (place != now) return entries_.comes_before(now, place);
-    return now != 0 && is_old(engine_.call_at(now), edge);
+    return now != nullptr && is_old(engine_.call_at(now), edge);
   }
 
   void contribute(Scope& s, const K& key, V&& value);
@@ -258,14 +262,14 @@ class TracedMap final : public Structure,
   void release(Contribution& c) noexcept;
   void link(Contribution& c) noexcept;
   void unlink(Contribution& c) noexcept;
-  [[nodiscard]] Handle one_behind(Handle entry, Handle now) const noexcept;
+  [[nodiscard]] Ref<Contribution> one_behind(Ref<Entry> entry, Place now) const noexcept;
   void set_aside(Contribution& c) noexcept;
-  void tell_unless_seen(const K& key, Handle now, bool changes);
+  void tell_unless_seen(const K& key, Place now, bool changes);
   void tell(const K& key) noexcept;
   void doubt(const Looker& l) noexcept { engine_.doubt(l.place); }
-  [[noreturn]] void fail_seen(const K& key, Handle now, const Looker& seen) const;
-  [[noreturn]] void fail_twice(const K& key, Handle now, Handle entry) const;
-  [[nodiscard]] std::string who(Handle place) const;
+  [[noreturn]] void fail_seen(const K& key, Place now, const Looker& seen) const;
+  [[noreturn]] void fail_twice(const K& key, Place now, Ref<Entry> entry) const;
+  [[nodiscard]] std::string who(Place place) const;
 
   void set_outside(const K& key, V&& value);
   void erase_outside(Contribution& c) noexcept;
@@ -275,7 +279,7 @@ class TracedMap final : public Structure,
   template <class Q>
   const typename Q::Answer& ask(Scope& s, Q question);
   template <class Q>
-  [[nodiscard]] typename Q::Answer answer_at(const Q& question, Handle now);
+  [[nodiscard]] typename Q::Answer answer_at(const Q& question, Place now);
   template <class Q>
   void learn(Query<Q>& query, typename Q::Answer&& answer);
 
@@ -293,13 +297,13 @@ class TracedMap final : public Structure,
 template <class K, class V, class Group, class... M>
 void TracedMap<K, V, Group, M...>::contribute(Scope& s, const K& key, V&& value) {
   const auto same = [&](const Contribution& c) {
-    return c.entry != 0 && same_key(entries_.node(c.entry).key, key);
+    return c.entry != nullptr && same_key(entries_.node(c.entry).key, key);
   };
   Contribution* c = s.recall<Contribution>(id_, kContribution, same, Scope::kMostRecalled);
   if (c == nullptr) {
     c = &s.effect<Contribution>(id_, kContribution);
     c->place = s.place();
-    c->entry = 0;
+    c->entry = nullptr;
     c->counts = false;
     ++edges_;
     enter(*c, key, std::move(value));
@@ -316,11 +320,11 @@ void TracedMap<K, V, Group, M...>::enter(Contribution& c, const K& key, V&& valu
   auto place = entries_.place_of(key);
   bool changes = true;
   if constexpr (!kSums) {
-    const Handle found = place.found;
-    changes = found == 0 || !identical(entries_.node(found).value, value);
-    if (found != 0 && changes) {
-      for (Handle h; (h = one_behind(found, c.place)) != 0;) set_aside(part(h));
-      if (entries_.node(found).contributions != 0) fail_twice(key, c.place, found);
+    const Ref<Entry> found = place.found;
+    changes = found == nullptr || !identical(entries_.node(found).value, value);
+    if (found != nullptr && changes) {
+      for (Ref<Contribution> b; (b = one_behind(found, c.place)) != nullptr;) set_aside(part(b));
+      if (entries_.node(found).contributions != nullptr) fail_twice(key, c.place, found);
       place = entries_.place_of(key);
     }
   }
@@ -335,29 +339,29 @@ void TracedMap<K, V, Group, M...>::give_entry(Contribution& c, const typename En
                                               const K& key, V&& value) {
   if constexpr (kSums) {
     V amount(value);
-    if (place.found != 0) value = Group::plus(entries_.node(place.found).value, value);
-    if (c.entry == 0 && place.found == 0) {
+    if (place.found != nullptr) value = Group::plus(entries_.node(place.found).value, value);
+    if (c.entry == nullptr && place.found == nullptr) {
       c.entry = entries_.make(key, std::move(value));
       ++entries_.node(c.entry).users;
       c.amount.make(std::move(amount));
       return entries_.link(c.entry, place);
     }
-    c.entry == 0 ? void(c.amount.make(std::move(amount)))
-                 : void(c.amount.get() = std::move(amount));
-  } else if (c.entry == 0 && place.found == 0) {
+    c.entry == nullptr ? void(c.amount.make(std::move(amount)))
+                       : void(c.amount.get() = std::move(amount));
+  } else if (c.entry == nullptr && place.found == nullptr) {
     c.entry = entries_.make(key, std::move(value));
     ++entries_.node(c.entry).users;
     return entries_.link(c.entry, place);
   }
-  if (place.found != 0 && place.found != c.entry) {
+  if (place.found != nullptr && place.found != c.entry) {
     ++entries_.node(place.found).users;
-    if (const Handle old = std::exchange(c.entry, place.found);
-        old != 0 && --entries_.node(old).users == 0) {
+    if (const Ref<Entry> old = std::exchange(c.entry, place.found);
+        old != nullptr && --entries_.node(old).users == 0) {
       entries_.destroy(old);
     }
   }
   entries_.node(c.entry).value = std::move(value);
-  if (place.found == 0) {
+  if (place.found == nullptr) {
     entries_.link(c.entry, place);
   } else {
     entries_.value_changed(c.entry);
@@ -373,7 +377,8 @@ void TracedMap<K, V, Group, M...>::replace(Contribution& c, V&& value) {
     e.value = std::move(sum);
     c.amount.get() = std::move(value);
   } else {
-    const bool alone = e.contributions == handle_of(c) && c.links.left == 0 && c.links.right == 0;
+    const bool alone =
+        e.contributions == Arena::ref(c) && c.links.left == nullptr && c.links.right == nullptr;
     if (!alone) {
       const K key = e.key;
       hide(c);
@@ -390,7 +395,7 @@ template <class K, class V, class Group, class... M>
 void TracedMap<K, V, Group, M...>::hide(Contribution& c) noexcept {
   Entry& e = entries_.node(c.entry);
   unlink(c);
-  if (e.contributions == 0) {
+  if (e.contributions == nullptr) {
     entries_.unlink(c.entry);
   } else if constexpr (kSums) {
     e.value = Group::minus(e.value, c.amount.get());
@@ -404,7 +409,7 @@ void TracedMap<K, V, Group, M...>::hide(Contribution& c) noexcept {
 // It ends.
 template <class K, class V, class Group, class... M>
 void TracedMap<K, V, Group, M...>::release(Contribution& c) noexcept {
-  if (c.entry == 0) return;
+  if (c.entry == nullptr) return;
   if constexpr (kSums) c.amount.end();
   if (--entries_.node(c.entry).users == 0) entries_.destroy(c.entry);
 }
@@ -412,21 +417,22 @@ void TracedMap<K, V, Group, M...>::release(Contribution& c) noexcept {
 template <class K, class V, class Group, class... M>
 void TracedMap<K, V, Group, M...>::link(Contribution& c) noexcept {
   Entry& e = entries_.node(c.entry);
-  const Handle self = handle_of(c);
-  const auto before = [&](Handle a) {
-    const Handle place = part(a).place;
-    return place == c.place ? a < self : entries_.comes_before(place, c.place);
+  const Ref<Contribution> self = Arena::ref(c);
+  const auto before = [&](Ref<Contribution> a) {
+    const Place place = part(a).place;
+    return place == c.place ? a.handle() < self.handle() : entries_.comes_before(place, c.place);
   };
-  Handle parent = 0;
+  Ref<Contribution> parent;
   bool right = false;
-  for (Handle h = e.contributions; h != 0; h = right ? part(h).links.right : part(h).links.left) {
+  for (Ref<Contribution> h = e.contributions; h != nullptr;
+       h = right ? part(h).links.right : part(h).links.left) {
     parent = h;
     right = before(h);
   }
-  const bool is_first = e.contributions == 0;
+  const bool is_first = e.contributions == nullptr;
   Parts::link(contributions(), e.contributions, parent, right, self);
   c.counts = true;
-  if (c.place == 0) e.outside = self;
+  if (c.place == nullptr) e.outside = self;
   if (is_first || entries_.comes_before(e.last, c.place)) {
     e.last = c.place;
     entries_.last_changed(c.entry);
@@ -436,27 +442,28 @@ void TracedMap<K, V, Group, M...>::link(Contribution& c) noexcept {
 template <class K, class V, class Group, class... M>
 void TracedMap<K, V, Group, M...>::unlink(Contribution& c) noexcept {
   Entry& e = entries_.node(c.entry);
-  Parts::unlink(contributions(), e.contributions, handle_of(c));
+  Parts::unlink(contributions(), e.contributions, Arena::ref(c));
   c.counts = false;
-  if (c.place == 0) e.outside = 0;
-  if (e.contributions == 0 || c.place != e.last) return;
-  const Handle last = part(Parts::last(contributions(), e.contributions)).place;
+  if (c.place == nullptr) e.outside = nullptr;
+  if (e.contributions == nullptr || c.place != e.last) return;
+  const Place last = part(Parts::last(contributions(), e.contributions)).place;
   if (last == e.last) return;
   e.last = last;
   entries_.last_changed(c.entry);
 }
 
-// A contribution that is not there yet for who is at `now`; 0: none.
+// A contribution that is not there yet for who is at `now`; null: none.
 template <class K, class V, class Group, class... M>
-Handle TracedMap<K, V, Group, M...>::one_behind(Handle entry, Handle now) const noexcept {
+auto TracedMap<K, V, Group, M...>::one_behind(Ref<Entry> entry, Place now) const noexcept
+    -> Ref<Contribution> {
   const Contributions parts = contributions();
-  for (Handle h = Parts::last(parts, entries_.node(entry).contributions); h != 0;
+  for (Ref<Contribution> h = Parts::last(parts, entries_.node(entry).contributions); h != nullptr;
        h = Parts::previous(parts, h)) {
     const Contribution& c = part(h);
     if (is_behind(c, c.place, now)) return h;
-    if (c.place != now) return 0;
+    if (c.place != now) return nullptr;
   }
-  return 0;
+  return nullptr;
 }
 
 // Its call comes later, in a trace of last time: it runs again, and is then refused if it still
@@ -473,7 +480,7 @@ void TracedMap<K, V, Group, M...>::set_aside(Contribution& c) noexcept {
 // Refuses a contribution at `now` behind a query of its key; if it `changes` the entry, puts those
 // who look later in doubt.
 template <class K, class V, class Group, class... M>
-void TracedMap<K, V, Group, M...>::tell_unless_seen(const K& key, Handle now, bool changes) {
+void TracedMap<K, V, Group, M...>::tell_unless_seen(const K& key, Place now, bool changes) {
   const auto visit = [&](const Looker& l) {
     if (!is_behind(l, l.place, now)) fail_seen(key, now, l);
     if (changes) doubt(l);
@@ -493,17 +500,17 @@ void TracedMap<K, V, Group, M...>::tell(const K& key) noexcept {
 
 template <class K, class V, class Group, class... M>
 void TracedMap<K, V, Group, M...>::Lookers::link(Looker& l) {
-  Handle parent = 0;
+  Ref<Looker> parent;
   bool right = true;
-  if (last != 0 && !l.span.get().begins_before(span(last))) {
+  if (last != nullptr && !l.span.get().begins_before(span(last))) {
     parent = last;
   } else {
-    for (Handle h = root; h != 0; h = right ? node(h).links.right : node(h).links.left) {
+    for (Ref<Looker> h = root; h != nullptr; h = right ? node(h).links.right : node(h).links.left) {
       parent = h;
       right = !l.span.get().begins_before(span(h));
     }
   }
-  const Handle self = engine.arena().handle_of(&l);
+  const Ref<Looker> self = Arena::ref(l);
   Links::link(*this, root, parent, right, self);
   if (parent == last && right) last = self;
   l.linked = true;
@@ -511,7 +518,7 @@ void TracedMap<K, V, Group, M...>::Lookers::link(Looker& l) {
 
 template <class K, class V, class Group, class... M>
 void TracedMap<K, V, Group, M...>::Lookers::unlink(Looker& l) noexcept {
-  const Handle self = engine.arena().handle_of(&l);
+  const Ref<Looker> self = Arena::ref(l);
   if (last == self) last = Links::previous(*this, self);
   Links::unlink(*this, root, self);
   l.linked = false;
@@ -519,10 +526,11 @@ void TracedMap<K, V, Group, M...>::Lookers::unlink(Looker& l) noexcept {
 
 template <class K, class V, class Group, class... M>
 template <class Visit>
-void TracedMap<K, V, Group, M...>::Lookers::at_key(Handle h, const K& key, Visit& visit) const {
-  while (h != 0) {
+void TracedMap<K, V, Group, M...>::Lookers::at_key(Ref<Looker> h, const K& key,
+                                                   Visit& visit) const {
+  while (h != nullptr) {
     const Looker& l = node(h);
-    if (l.reach != 0 && span(l.reach).is_above(key)) return;
+    if (l.reach != nullptr && span(l.reach).is_above(key)) return;
     at_key(l.links.left, key, visit);
     if (l.span.get().is_below(key)) return;
     if (!l.span.get().is_above(key)) visit(l);
@@ -532,20 +540,20 @@ void TracedMap<K, V, Group, M...>::Lookers::at_key(Handle h, const K& key, Visit
 
 template <class K, class V, class Group, class... M>
 template <class Visit>
-void TracedMap<K, V, Group, M...>::Lookers::all(Handle h, Visit& visit) const {
-  for (; h != 0; h = node(h).links.right) {
+void TracedMap<K, V, Group, M...>::Lookers::all(Ref<Looker> h, Visit& visit) const {
+  for (; h != nullptr; h = node(h).links.right) {
     all(node(h).links.left, visit);
     visit(node(h));
   }
 }
 
 template <class K, class V, class Group, class... M>
-std::string TracedMap<K, V, Group, M...>::who(Handle place) const {
-  return place != 0 ? Engine::describe(engine_.call_at(place)) : "the outside";
+std::string TracedMap<K, V, Group, M...>::who(Place place) const {
+  return place != nullptr ? Engine::describe(engine_.call_at(place)) : "the outside";
 }
 
 template <class K, class V, class Group, class... M>
-void TracedMap<K, V, Group, M...>::fail_seen(const K& key, Handle now, const Looker& seen) const {
+void TracedMap<K, V, Group, M...>::fail_seen(const K& key, Place now, const Looker& seen) const {
   std::ostringstream text;
   text << "map '" << name_ << "': " << who(now) << (kSums ? " adds to key " : " puts key ");
   print_argument(text, key);
@@ -555,11 +563,11 @@ void TracedMap<K, V, Group, M...>::fail_seen(const K& key, Handle now, const Loo
 }
 
 template <class K, class V, class Group, class... M>
-void TracedMap<K, V, Group, M...>::fail_twice(const K& key, Handle now, Handle entry) const {
+void TracedMap<K, V, Group, M...>::fail_twice(const K& key, Place now, Ref<Entry> entry) const {
   std::ostringstream text;
   text << "map '" << name_ << "': " << who(now) << " puts another value for key ";
   print_argument(text, key);
-  const Handle first = Parts::first(contributions(), entries_.node(entry).contributions);
+  const Ref<Contribution> first = Parts::first(contributions(), entries_.node(entry).contributions);
   text << " than " << who(part(first).place);
   throw UsageError(text.str());
 }
@@ -568,9 +576,9 @@ void TracedMap<K, V, Group, M...>::fail_twice(const K& key, Handle now, Handle e
 
 template <class K, class V, class Group, class... M>
 auto TracedMap<K, V, Group, M...>::outside(const K& key) const -> Contribution* {
-  const Handle entry = entries_.find(key);
-  const Handle h = entry != 0 ? entries_.node(entry).outside : 0;
-  return h != 0 ? &part(h) : nullptr;
+  const Ref<Entry> entry = entries_.find(key);
+  const Ref<Contribution> c = entry != nullptr ? entries_.node(entry).outside : nullptr;
+  return c != nullptr ? &part(c) : nullptr;
 }
 
 template <class K, class V, class Group, class... M>
@@ -618,15 +626,14 @@ void TracedMap<K, V, Group, M...>::erase(const K& key) {
 template <class K, class V, class Group, class... M>
 void TracedMap<K, V, Group, M...>::set_outside(const K& key, V&& value) {
   if (Contribution* known = outside(key)) return replace(*known, std::move(value));
-  const Handle h = engine_.arena().allocate(sizeof(Contribution));
-  Contribution& c = *::new (engine_.arena().template at<void>(h)) Contribution;
-  c.place = c.entry = 0;
+  const Ref<Contribution> fresh = engine_.arena().template make<Contribution>();
+  Contribution& c = part(fresh);
   c.counts = false;
   try {
     enter(c, key, std::move(value));
   } catch (...) {
     release(c);
-    engine_.arena().release(h, sizeof(Contribution));
+    engine_.arena().release(fresh);
     throw;
   }
 }
@@ -635,7 +642,7 @@ template <class K, class V, class Group, class... M>
 void TracedMap<K, V, Group, M...>::erase_outside(Contribution& c) noexcept {
   hide(c);
   release(c);
-  engine_.arena().release(handle_of(c), sizeof(Contribution));
+  engine_.arena().release(Arena::ref(c));
 }
 
 // --- Asking --------------------------------------------------------------------------------------
@@ -670,16 +677,16 @@ auto TracedMap<K, V, Group, M...>::ask(Scope& s, Q question) -> const typename Q
 // aside first.
 template <class K, class V, class Group, class... M>
 template <class Q>
-auto TracedMap<K, V, Group, M...>::answer_at(const Q& question, Handle now) -> typename Q::Answer {
+auto TracedMap<K, V, Group, M...>::answer_at(const Q& question, Place now) -> typename Q::Answer {
   for (;;) {
     auto answer = question.of(entries_);
     if (engine_.appending()) return answer;
-    Handle behind = 0;
-    entries_.any_reaching(now, question.span(answer), [&](Handle entry) {
+    Ref<Contribution> behind;
+    entries_.any_reaching(now, question.span(answer), [&](Ref<Entry> entry) {
       behind = one_behind(entry, now);
-      return behind != 0;
+      return behind != nullptr;
     });
-    if (behind == 0) return answer;
+    if (behind == nullptr) return answer;
     set_aside(part(behind));
   }
 }
@@ -730,7 +737,7 @@ void TracedMap<K, V, Group, M...>::print(const Call&, const Edge& edge, std::ost
     return looker.made ? kind_of(edge).print(looker, out) : void();
   }
   const auto& c = static_cast<const Contribution&>(edge);
-  if (c.entry == 0) return;
+  if (c.entry == nullptr) return;
   out << (kSums ? "adds to " : "puts ");
   print_argument(out, entries_.node(c.entry).key);
   out << ": ";
@@ -740,16 +747,17 @@ void TracedMap<K, V, Group, M...>::print(const Call&, const Edge& edge, std::ost
 template <class K, class V, class Group, class... M>
 void TracedMap<K, V, Group, M...>::check_invariants() const {
   entries_.check_invariants();
-  entries_.for_each([&](Handle h) {
+  entries_.for_each([&](Ref<Entry> h) {
     const Entry& e = entries_.node(h);
     const Contributions parts = contributions();
-    SAC_INVARIANT(e.contributions != 0);
+    SAC_INVARIANT(e.contributions != nullptr);
     SAC_INVARIANT(Parts::check_invariants(parts, e.contributions) == e.users);  // none is aside
-    Handle before = 0;
-    for (Handle p = Parts::first(parts, e.contributions); p != 0; p = Parts::next(parts, p)) {
+    Ref<Contribution> before;
+    for (Ref<Contribution> p = Parts::first(parts, e.contributions); p != nullptr;
+         p = Parts::next(parts, p)) {
       SAC_INVARIANT(part(p).counts && part(p).entry == h);
-      SAC_INVARIANT(before == 0 || !entries_.comes_before(part(p).place, part(before).place));
-      SAC_INVARIANT((part(p).place == 0) == (p == e.outside));
+      SAC_INVARIANT(before == nullptr || !entries_.comes_before(part(p).place, part(before).place));
+      SAC_INVARIANT((part(p).place == nullptr) == (p == e.outside));
       before = p;
     }
     SAC_INVARIANT(part(before).place == e.last);
@@ -761,20 +769,21 @@ void TracedMap<K, V, Group, M...>::check_invariants() const {
   SAC_INVARIANT(lookers_.last == Links::last(lookers_, lookers_.root));
   const std::size_t lookers = Links::check_invariants(lookers_, lookers_.root);
   std::size_t count = 0;
-  Handle previous = 0;
-  for (Handle h = Links::first(lookers_, lookers_.root); h != 0; h = Links::next(lookers_, h)) {
+  Ref<Looker> previous;
+  for (Ref<Looker> h = Links::first(lookers_, lookers_.root); h != nullptr;
+       h = Links::next(lookers_, h)) {
     const Looker& l = lookers_.node(h);
     SAC_INVARIANT(engine_.is_live_place(l.place) && l.linked);
-    Handle up = l.reach;  // a node of the tree below
-    while (up != 0 && up != h) up = lookers_.node(up).links.parent;
-    SAC_INVARIANT(l.reach == 0 || up == h);
-    SAC_INVARIANT(l.reach == 0 || !lookers_.span(l.reach).ends_before(l.span.get()));
-    for (const Handle child : {l.links.left, l.links.right}) {
-      if (child == 0 || l.reach == 0) continue;
-      const Handle other = lookers_.node(child).reach;
-      SAC_INVARIANT(other != 0 && !lookers_.span(l.reach).ends_before(lookers_.span(other)));
+    Ref<Looker> up = l.reach;  // a node of the tree below
+    while (up != nullptr && up != h) up = lookers_.node(up).links.parent;
+    SAC_INVARIANT(l.reach == nullptr || up == h);
+    SAC_INVARIANT(l.reach == nullptr || !lookers_.span(l.reach).ends_before(l.span.get()));
+    for (const Ref<Looker> child : {l.links.left, l.links.right}) {
+      if (child == nullptr || l.reach == nullptr) continue;
+      const Ref<Looker> other = lookers_.node(child).reach;
+      SAC_INVARIANT(other != nullptr && !lookers_.span(l.reach).ends_before(lookers_.span(other)));
     }
-    SAC_INVARIANT(previous == 0 || !lookers_.span(h).begins_before(lookers_.span(previous)));
+    SAC_INVARIANT(previous == nullptr || !lookers_.span(h).begins_before(lookers_.span(previous)));
     previous = h;
     ++count;
   }
@@ -789,10 +798,10 @@ TracedMap<K, V, Group, M...>::~TracedMap() {
     kind_of(l).end(l);
   };
   lookers_.all(lookers_.root, end_looker);
-  entries_.for_each([&](Handle h) {
+  entries_.for_each([&](Ref<Entry> h) {
     if constexpr (kSums) {
       const Contributions parts = contributions();
-      for (Handle p = Parts::first(parts, entries_.node(h).contributions); p != 0;
+      for (Ref<Contribution> p = Parts::first(parts, entries_.node(h).contributions); p != nullptr;
            p = Parts::next(parts, p)) {
         part(p).amount.end();
       }

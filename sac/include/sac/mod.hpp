@@ -39,21 +39,25 @@ template <class T, class Same>
 class Mod {
  public:
   Mod() = default;
-  /// The modifiable at a handle. Requires: the handle is that of such a modifiable.
-  explicit Mod(Handle head) : head_(head) {}
+  /// The modifiable at a handle. Requires: it is one of this type.
+  explicit Mod(ModRef head) : head_(head) {}
   /// The modifiable of a cell. Requires: the cell is part of an object that an engine made.
   Mod(const Cell<T, Same>& cell)
-      : head_(Arena::locate(&cell)), stamp_(cell.version_.stamp_in_arena()) {}
-  [[nodiscard]] Handle head() const noexcept { return head_; }
+      : head_(Arena::ref<detail::Version>(cell.version_)), stamp_(cell.version_.stamp_in_arena()) {}
+  [[nodiscard]] ModRef head() const noexcept { return head_; }
   [[nodiscard]] detail::Stamp stamp() const noexcept { return stamp_; }
-  explicit operator bool() const noexcept { return head_ != 0; }
+  explicit operator bool() const noexcept { return head_ != nullptr; }
   friend bool operator==(const Mod& a, const Mod& b) noexcept { return a.head_ == b.head_; }
-  friend auto operator<=>(const Mod& a, const Mod& b) noexcept { return a.head_ <=> b.head_; }
-  friend std::uint64_t hash_value(const Mod& m) noexcept { return m.head_; }
-  friend std::ostream& operator<<(std::ostream& out, const Mod& m) { return out << '@' << m.head_; }
+  friend auto operator<=>(const Mod& a, const Mod& b) noexcept {
+    return a.head_.handle() <=> b.head_.handle();
+  }
+  friend std::uint64_t hash_value(const Mod& m) noexcept { return m.head_.handle(); }
+  friend std::ostream& operator<<(std::ostream& out, const Mod& m) {
+    return out << '@' << m.head_.handle();
+  }
 
  private:
-  Handle head_ = 0;
+  ModRef head_;
   [[no_unique_address]] detail::Stamp stamp_;
 };
 
@@ -80,9 +84,9 @@ T& Engine::make() {
 template <class T, class... Args>
 T& Engine::make_inside(Args&&... args) {
   static_assert(alignof(T) <= 8, "objects in the arena are aligned to 8 bytes");
-  const Handle head = new_outside(kOutsideType<T>);
+  const Ref<OutsideHead> head = new_outside(kOutsideType<T>);
   try {
-    return *::new (static_cast<void*>(outside_head(head) + 1)) T(std::forward<Args>(args)...);
+    return *::new (static_cast<void*>(&arena()[head] + 1)) T(std::forward<Args>(args)...);
   } catch (...) {
     outside_.pop_back();
     arena().release(head, kOutsideType<T>.bytes);
@@ -98,7 +102,7 @@ template <class T, class Same>
 void Engine::release(Mod<T, Same> mod) {
   begin_edit("release");
   mods_->require_live(mod.head(), mod.stamp(), "release");
-  release_outside(mods_->version(mod.head()), "modifiable");
+  release_outside(&arena()[mod.head()], "modifiable");
 }
 
 template <class T, class Same>
@@ -138,7 +142,7 @@ void Engine::set(Mod<T, Same> mod, std::type_identity_t<T> value) {
 
 template <class T, class Same>
 void Engine::set_unrecorded(const Cell<T, Same>& cell, std::type_identity_t<T> value) {
-  const Handle head = Mod<T, Same>(cell).head();
+  const ModRef head = Mod<T, Same>(cell).head();
   if (mods_->is_input(head)) return mods_->change_input(head, std::move(value));
   const std::uint16_t type = mods_->number(detail::kValueType<T, Same>);
   mods_->make_input(head, type, std::move(value));
@@ -151,26 +155,26 @@ void Engine::unset_unrecorded(const Cell<T, Same>& cell) noexcept {
 
 template <class T, class Same>
 void Engine::set(const Cell<T, Same>& cell, std::type_identity_t<T> value) {
-  core_.require_own(&cell, "set: the cell");
+  require_own(&cell, "set: the cell");
   set(Mod<T, Same>(cell), std::move(value));
 }
 
 template <class T, class Same>
 const T& Engine::get(Mod<T, Same> mod) const {
-  core_.require_settled("get");
+  require_settled("get");
   mods_->require_live(mod.head(), mod.stamp(), "get");
   return detail::value_of<T>(mods_->last(mod.head()));
 }
 
 template <class T, class Same>
 const T& Engine::get(const Cell<T, Same>& cell) const {
-  core_.require_own(&cell, "get: the cell");
+  require_own(&cell, "get: the cell");
   return get(Mod<T, Same>(cell));
 }
 
 template <class T, class Same>
 bool Engine::has_value(Mod<T, Same> mod) const {
-  core_.require_settled("has_value");
+  require_settled("has_value");
   mods_->require_live(mod.head(), mod.stamp(), "has_value");
   return mods_->newest(mod.head()) != nullptr;
 }
@@ -188,10 +192,21 @@ void Engine::on_change(Mod<T, Same> mod, std::type_identity_t<std::function<void
 template <class T, class Same>
 detail::TypedWatch<T, Same>& Engine::watch_of(Mod<T, Same> mod) {
   static_assert(std::is_copy_constructible_v<T>, "the value of a watched modifiable is copied");
-  core_.require_idle("on_change");
-  if (!core_.settled()) throw UsageError("on_change: propagate the edits first");
+  require_idle("on_change");
+  if (!settled()) throw UsageError("on_change: propagate the edits first");
   mods_->require_live(mod.head(), mod.stamp(), "on_change");
-  return watches().template at<T, Same>(mod.head());
+  settings.watching = true;
+  return watches_->template at<T, Same>(mod.head());
+}
+
+template <class T, class Same>
+void Engine::unwatch(Mod<T, Same> mod) noexcept {
+  watches_->drop(mod.head());
+}
+
+template <class T, class Same>
+bool Engine::changed(Mod<T, Same> mod) const noexcept {
+  return watches_->has_changed(mod.head());
 }
 
 template <class T, class Same>

@@ -34,7 +34,7 @@ struct Event {
 
   Kind kind;
   const Call* call = nullptr;
-  Handle source = 0;              // a modifiable; 0: none, or another structure
+  ModRef source{};                // a modifiable; null: none, or another structure
   const Edge* seen = nullptr;     // of invalidated: the observation, if the structure named it
   const char* message = nullptr;  // of failed and roll_back_started: the exception's message
   const Call* by = nullptr;       // the running call, or the poster; null: the outside

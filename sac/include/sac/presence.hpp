@@ -33,22 +33,22 @@ namespace sac {
 /// The effect of producing a thing; a structure derives its own edge from it, which names the
 /// thing.
 struct ProducerEdge : Edge {
-  Handle place = 0;  // of the producer (Scope::place)
-  Handle next = 0;   // another producer of the same thing
+  Place place;             // of the producer (Scope::place)
+  Ref<ProducerEdge> next;  // another producer of the same thing
 };
 
 /// The record that a structure keeps for each thing. Eight bytes; all zero: no call produces it.
 class Presence {
  public:
   /// Whether some call produces it.
-  [[nodiscard]] bool there() const noexcept { return birth_ != 0; }
-  /// The earliest producer; 0 if there is none.
-  [[nodiscard]] Handle birth() const noexcept { return birth_; }
+  [[nodiscard]] bool there() const noexcept { return birth_ != nullptr; }
+  /// The place of the earliest producer; null if there is none.
+  [[nodiscard]] Place birth() const noexcept { return birth_; }
 
  private:
   friend class Presences;
-  Handle producers_ = 0;  // edges, the newest first
-  Handle birth_ = 0;
+  Ref<ProducerEdge> producers_;  // the newest first
+  Place birth_;
 };
 
 /// The places behind `after`, up to and including `last` (null: all places behind).
@@ -67,7 +67,7 @@ class Presences {
   explicit Presences(Engine& engine) noexcept : engine_(engine) {}
 
   /// Whether a producer precedes `place`. Cost: O(1).
-  [[nodiscard]] bool seen_at(const Presence& p, Handle place) const noexcept {
+  [[nodiscard]] bool seen_at(const Presence& p, Place place) const noexcept {
     if (!p.there() || p.birth_ == place) return false;
     return engine_.appending() || engine_.precedes(engine_.time(p.birth_), engine_.time(place));
   }
@@ -80,7 +80,7 @@ class Presences {
   /// Records that the thing is produced at `place`: `edge` is the new effect. Returns the places
   /// that see the thing now and did not before; nothing if there are none. Cost: O(1).
   [[nodiscard]] std::optional<Window> produced(Presence& p, ProducerEdge& edge,
-                                               Handle place) noexcept;
+                                               Place place) noexcept;
   /// Records that the effect is undone. Returns the places that saw the thing and no longer do.
   /// Requires: produced(p, edge, ...) before. Cost: O(producers).
   [[nodiscard]] std::optional<Window> retracted(Presence& p, ProducerEdge& edge) noexcept;
@@ -89,53 +89,54 @@ class Presences {
   void check_invariants(const Presence& p) const;
 
  private:
-  [[nodiscard]] ProducerEdge& edge(Handle h) const noexcept {
-    return *engine_.arena().at<ProducerEdge>(h);
+  [[nodiscard]] ProducerEdge& at(Ref<ProducerEdge> edge) const noexcept {
+    return engine_.arena()[edge];
   }
-  [[nodiscard]] Handle earliest(const Presence& p) const noexcept;
+  [[nodiscard]] Place earliest(const Presence& p) const noexcept;
 
   Engine& engine_;
 };
 
 inline std::optional<Window> Presences::produced(Presence& p, ProducerEdge& edge,
-                                                 Handle place) noexcept {
+                                                 Place place) noexcept {
   edge.place = place;
   edge.next = p.producers_;
-  p.producers_ = engine_.arena().handle_of(&edge);
-  const Handle old = p.birth_;
-  const bool earlier = old == 0 || (!engine_.appending() &&
-                                    engine_.precedes(engine_.time(place), engine_.time(old)));
+  p.producers_ = Arena::ref(edge);
+  const Place old = p.birth_;
+  const bool earlier = old == nullptr || (!engine_.appending() &&
+                                          engine_.precedes(engine_.time(place), engine_.time(old)));
   if (!earlier) return std::nullopt;
   p.birth_ = place;
   if (engine_.appending()) return std::nullopt;  // nothing is behind
-  return Window{&engine_.time(place), old == 0 ? nullptr : &engine_.time(old)};
+  return Window{&engine_.time(place), old == nullptr ? nullptr : &engine_.time(old)};
 }
 
 inline std::optional<Window> Presences::retracted(Presence& p, ProducerEdge& gone) noexcept {
-  const Handle self = engine_.arena().handle_of(&gone);
-  Handle* link = &p.producers_;
-  while (*link != self) link = &edge(*link).next;
+  const Ref<ProducerEdge> self = Arena::ref(gone);
+  Ref<ProducerEdge>* link = &p.producers_;
+  while (*link != self) link = &at(*link).next;
   *link = gone.next;
-  const Handle old = p.birth_;
+  const Place old = p.birth_;
   if (old != gone.place) return std::nullopt;
   p.birth_ = earliest(p);
   if (p.birth_ == old || engine_.appending()) return std::nullopt;
-  return Window{&engine_.time(old), p.birth_ == 0 ? nullptr : &engine_.time(p.birth_)};
+  return Window{&engine_.time(old), p.birth_ == nullptr ? nullptr : &engine_.time(p.birth_)};
 }
 
-inline Handle Presences::earliest(const Presence& p) const noexcept {
-  Handle first = 0;
-  for (Handle h = p.producers_; h != 0; h = edge(h).next) {
-    const Handle place = edge(h).place;
-    if (first == 0 || engine_.precedes(engine_.time(place), engine_.time(first))) first = place;
+inline Place Presences::earliest(const Presence& p) const noexcept {
+  Place first;
+  for (Ref<ProducerEdge> e = p.producers_; e != nullptr; e = at(e).next) {
+    const Place place = at(e).place;
+    if (first == nullptr || engine_.precedes(engine_.time(place), engine_.time(first)))
+      first = place;
   }
   return first;
 }
 
 inline void Presences::check_invariants(const Presence& p) const {
   SAC_INVARIANT(p.birth_ == earliest(p));
-  for (Handle h = p.producers_; h != 0; h = edge(h).next) {
-    SAC_INVARIANT(!engine_.call_at(edge(h).place).dead());
+  for (Ref<ProducerEdge> e = p.producers_; e != nullptr; e = at(e).next) {
+    SAC_INVARIANT(!engine_.call_at(at(e).place).dead());
   }
 }
 

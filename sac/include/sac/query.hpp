@@ -39,6 +39,8 @@
 namespace sac {
 namespace detail {
 
+struct FirstRequest;
+
 // A label that somebody asks for, with the modifiable that holds its value.
 struct Query {
   // What is to be known of the types of its function and arguments.
@@ -52,17 +54,17 @@ struct Query {
   Query* next = nullptr;         // in its bucket
   Query* next_unused = nullptr;  // perhaps: Queries::suspect
   std::uint32_t hash;
-  Handle answer = 0;  // the modifiable
-  Handle first = 0;   // requests that have found no value, chained
+  ModRef answer{};
+  Ref<FirstRequest> first{};  // requests that have found no value, chained
   bool suspected = false;
 };
 
 // A call has asked for the query at `place`, and has found no value.
 struct FirstRequest : Edge {
-  Handle place;
-  Handle query;
-  Handle next;
-  Handle previous;
+  Place place;
+  Ref<Query> query;
+  Ref<FirstRequest> next;
+  Ref<FirstRequest> previous;
 };
 static_assert(sizeof(FirstRequest) == 24);
 
@@ -77,7 +79,7 @@ template <auto F, class... P>
 struct TypedQuery : Query {
   TypedQuery(std::uint32_t label_hash, const std::tuple<P...>& arguments)
       : Query{.type = &kType, .hash = label_hash}, args(arguments) {
-    Query::answer = Arena::locate(&value);
+    Query::answer = ModRef(Arena::handle_of(&value));
   }
   static const TypedQuery& of(const Query& query) noexcept {
     return static_cast<const TypedQuery&>(query);
@@ -158,11 +160,9 @@ class Queries final : public Structure {
  private:
   static constexpr std::uint8_t kFirst = 0;
 
-  [[nodiscard]] detail::Query& at(Handle h) const noexcept {
-    return *engine_.arena().at<detail::Query>(h);
-  }
-  [[nodiscard]] detail::FirstRequest& request(Handle h) const noexcept {
-    return *engine_.arena().at<detail::FirstRequest>(h);
+  template <class T>
+  [[nodiscard]] T& at(Ref<T> ref) const noexcept {
+    return engine_.arena()[ref];
   }
   [[nodiscard]] detail::Query*& bucket(std::uint32_t hash) noexcept {
     return table_[hash & (table_.size() - 1)];

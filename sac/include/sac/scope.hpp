@@ -67,16 +67,20 @@ class Scope {
   /// on the value.
   template <auto F, class... Args>
   decltype(auto) call(Args&&... args) {
-    return call_as<F>(detail::parameters<F, false, detail::Arrived<Args>...>(),
-                      std::forward<Args>(args)...);
+    using What = detail::CallBy<F, Args...>;
+    const Ref<Call> child = request<What>(&Core::call_child, std::forward<Args>(args)...);
+    if constexpr (What::function.has_result) {
+      return std::as_const(*What::FrameType::of(core_.at(child)).tail.value);
+    }
   }
 
   /// Makes a child call as the last operation of the function: it runs after the function, without
   /// native recursion. F must return nothing.
   template <auto F, class... Args>
   void tail(Args&&... args) {
-    tail_as<F>(detail::parameters<F, false, detail::Arrived<Args>...>(),
-               std::forward<Args>(args)...);
+    using What = detail::CallBy<F, Args...>;
+    static_assert(!What::function.has_result, "a tail call has nobody to return to");
+    request<What>(&Core::call_tail, std::forward<Args>(args)...);
   }
 
   /// The value that F(scope, args...) returns, computed once for all calls that ask for it
@@ -92,22 +96,20 @@ class Scope {
   /// requested again within the interval that runs again, by whichever call.
   template <class T, class... Key>
   T& make(Key&&... key) {
-    return object<detail::Made<T, detail::Kept<detail::Arrived<Key>>...>>(
-        false, std::forward<Key>(key)...);
+    return object<detail::Made<T, nullptr, detail::Kept<detail::Arrived<Key>>...>>(
+        &Core::call_child, std::forward<Key>(key)...);
   }
   /// Keyed allocation of a T, which the call F(scope, object, key...) fills. The label is that of
   /// F(key...).
   template <class T, auto F, class... Key>
   T& make(Key&&... key) {
-    return built<T, F>(detail::parameters<F, true, detail::Arrived<Key>...>(), false,
-                       std::forward<Key>(key)...);
+    return object<detail::MadeBy<T, F, Key...>>(&Core::call_child, std::forward<Key>(key)...);
   }
   /// As make(), but F runs as a tail call: the object is returned at once, still empty. Afterwards
   /// the function may still read and write, but not call: F runs behind that.
   template <class T, auto F, class... Key>
   T& tail_make(Key&&... key) {
-    return built<T, F>(detail::parameters<F, true, detail::Arrived<Key>...>(), true,
-                       std::forward<Key>(key)...);
+    return object<detail::MadeBy<T, F, Key...>>(&Core::call_tail, std::forward<Key>(key)...);
   }
 
   /// Keyed allocation of a modifiable that the program writes.
@@ -119,7 +121,7 @@ class Scope {
   /// The running call's place in time, for a structure's records: it precedes what the call does
   /// behind its next child. It is valid as long as the call has an edge that was made or repeated
   /// there. Throws: std::bad_alloc.
-  [[nodiscard]] Handle place() { return core_.place(); }
+  [[nodiscard]] Place place() { return core_.place(); }
 
   /// How many edges of the last execution the library's own structures look at in recall().
   static constexpr std::size_t kMostRecalled = 64;
@@ -159,45 +161,20 @@ class Scope {
   }
 
  private:
+  using Request = Ref<Call> (Core::*)(const Asked&);  // call_child or call_tail
   void record_weight(std::uint64_t n);
   template <auto F, class... P, class... Args>
-  decltype(auto) call_as(detail::Types<P...>, Args&&... args) {
-    using What = detail::Called<F, P...>;
-    const Handle child = child_call<What>(std::forward<Args>(args)...);
-    if constexpr (What::function.has_result) {
-      return std::as_const(*What::FrameType::of(*core_.at<Call>(child)).tail.value);
-    }
-  }
-  template <auto F, class... P, class... Args>
-  void tail_as(detail::Types<P...>, Args&&... args) {
-    using What = detail::Called<F, P...>;
-    static_assert(!What::function.has_result, "a tail call has nobody to return to");
-    tail_call<What>(std::forward<Args>(args)...);
-  }
-  template <auto F, class... P, class... Args>
   decltype(auto) query_as(detail::Types<P...>, Args&&... args);
-  template <class T, auto F, class... P, class... Key>
-  T& built(detail::Types<P...>, bool tail, Key&&... key) {
-    return object<detail::Built<T, F, P...>>(tail, std::forward<Key>(key)...);
-  }
   template <class What, class... Key>
-  auto& object(bool tail, Key&&... key) {
-    const Handle made = tail ? tail_call<What>(std::forward<Key>(key)...)
-                             : child_call<What>(std::forward<Key>(key)...);
-    return What::FrameType::of(*core_.at<Call>(made)).tail.value;
+  auto& object(Request how, Key&&... key) {
+    const Ref<Call> made = request<What>(how, std::forward<Key>(key)...);
+    return What::FrameType::of(core_.at(made)).tail.value;
   }
   template <class What, class... Args>
-  Handle child_call(Args&&... args) {
+  Ref<Call> request(Request how, Args&&... args) {
     return core_.guarded([&] {
       const auto label = detail::make_label<What>(std::forward<Args>(args)...);
-      return core_.call_child(label.asked());
-    });
-  }
-  template <class What, class... Args>
-  Handle tail_call(Args&&... args) {
-    return core_.guarded([&] {
-      const auto label = detail::make_label<What>(std::forward<Args>(args)...);
-      return core_.call_tail(label.asked());
+      return (core_.*how)(label.asked());
     });
   }
   template <class E>
@@ -227,12 +204,11 @@ void Called<F, Args...>::execute_in(Scope& scope, Call& call) {
     Value result = std::apply(body, frame.args);
     auto& known = frame.tail.value;
     if constexpr (kKeepsOriginals<Value, Same>) {
-      const Value* original = core.undoing() ? core.originals().find<Value>(call, 0) : nullptr;
-      if (original != nullptr && same<Same>(*original, result)) result = *original;
+      core.restore_original<Same>(call, nullptr, result);
     }
     if (known.has_value() && same<Same>(*known, result)) return;
     if constexpr (kKeepsOriginals<Value, Same>) {
-      if (known.has_value()) core.originals().keep(call, 0, *known);
+      if (known.has_value()) core.originals().keep(call, nullptr, *known);
     }
     known.reset();
     known.emplace(std::move(result));
@@ -244,13 +220,7 @@ void Called<F, Args...>::execute_in(Scope& scope, Call& call) {
 
 template <auto F, class... Args>
 Counts Engine::run(Args&&... args) {
-  return run_as<F>(detail::parameters<F, false, detail::Arrived<Args>...>(),
-                   std::forward<Args>(args)...);
-}
-
-template <auto F, class... P, class... Args>
-Counts Engine::run_as(detail::Types<P...>, Args&&... args) {
-  using What = detail::Called<F, P...>;
+  using What = detail::CallBy<F, Args...>;
   static_assert(!What::function.has_result, "what a program computes is in modifiables");
   const auto label = detail::make_label<What>(std::forward<Args>(args)...);
   return run_root(label.asked());

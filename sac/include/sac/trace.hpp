@@ -29,7 +29,16 @@
 namespace sac {
 
 class Scope;
+class Agenda;
 struct Call;
+struct Edge;
+struct PostEdge;
+namespace detail {
+struct Version;
+}  // namespace detail
+
+/// A modifiable: its version in place (internal/mod_structure.hpp).
+using ModRef = Ref<detail::Version>;
 
 /// The description of a traced function for the engine; one constant object per function and
 /// signature. `arguments` is the tuple that a call keeps.
@@ -81,15 +90,11 @@ struct Call : TimeNode {
   bool posted : 1 = false;      // runs from an agenda; a Slot lies behind the head
   std::uint8_t unused : 2 = 0;  // so that a new call's byte is written whole
   std::uint8_t work_queue = 0;  // of a posted call: the number of its agenda as a structure
-  union {
-    Handle end = 0;            // end stamp; 0: a leaf
-    Handle previous_unposted;  // of a call that waits on an agenda and that nobody posts now
-  };
-  union {
-    Handle edges = 0;      // effects and observations, oldest first
-    Handle next_unposted;  // as above
-  };
-  std::uint32_t queue = 0;  // 1 + position in the propagation queue; 0: not in it
+  Place end;                    // end stamp; null: a leaf
+  Ref<Edge> edges;              // effects and observations, oldest first
+  std::uint32_t queue = 0;      // 1 + position in the propagation queue; 0: not in it
+
+  static constexpr Kind kKind = Kind::call;
 
   [[nodiscard]] bool running() const noexcept { return life == Life::running; }
   [[nodiscard]] bool waiting() const noexcept { return life == Life::waiting; }
@@ -106,7 +111,7 @@ static_assert(sizeof(Call) == 32 && alignof(Call) == 4);
 struct Slot {
   std::uint64_t order = 0;
   std::uint32_t rank = 0;
-  Handle posts = 0;  // the posts that count, chained; 0: it is dying
+  Ref<PostEdge> posts{};  // those that count, chained; null: it is dying
   /// Requires: the call is posted.
   [[nodiscard]] static Slot& of(Call& call) noexcept { return *reinterpret_cast<Slot*>(&call + 1); }
   [[nodiscard]] static const Slot& of(const Call& call) noexcept {
@@ -117,7 +122,7 @@ static_assert(sizeof(Slot) == 16);
 
 /// Behind the head of a call whose function returns a value.
 struct ResultHead {
-  Handle caller = 0;  // the call that depends on the result
+  Ref<Call> caller;  // the call that depends on the result
   [[nodiscard]] static ResultHead& of(Call& call) noexcept {
     return *reinterpret_cast<ResultHead*>(&call + 1);
   }
@@ -125,7 +130,7 @@ struct ResultHead {
 
 /// The head of every edge; structures derive their own edges from it.
 struct Edge {
-  Handle next = 0;  // next edge of the same call
+  Ref<Edge> next{};  // next edge of the same call
   std::uint8_t structure = 0;
   std::uint8_t kind : 6 = 0;            // meaning defined by the structure
   std::uint8_t begins_segment : 1 = 0;  // of no structure: it lies in a Segment
@@ -143,7 +148,9 @@ static_assert(sizeof(Edge) == 8);
 /// that follow in the call's list.
 struct Segment : TimeNode {
   Edge edge;  // in the call's list
-  Handle call = 0;
+  Ref<Call> call;
+
+  static constexpr Kind kKind = Kind::segment;
   [[nodiscard]] static Segment& of(Edge& edge) noexcept {
     return *reinterpret_cast<Segment*>(reinterpret_cast<std::byte*>(&edge) - sizeof(TimeNode));
   }

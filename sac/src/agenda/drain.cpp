@@ -29,24 +29,25 @@ bool Agenda::before(const Call& a, const Call& b) const {
 
 // The time stamp behind which a call that waits has its place: the end of the one before it.
 // Requires: the agenda is drained.
-Handle Agenda::stamp_before(const Call& call) const {
+Place Agenda::stamp_before(const Call& call) const {
   const Entry* neighbour = calls_.predecessor(entry_of(call), order());
-  return neighbour != nullptr ? core_.end_of(neighbour->call) : drain_call_;
+  return neighbour != nullptr ? core_.end_of(neighbour->call) : Place(drain_call_);
 }
 
 // Puts a call posted during propagation between its neighbours. All that a neighbour which still
 // runs has done so far lies before now; what it will do comes between now and the new call.
-void Agenda::place(Handle call) {
-  Call& c = *core_.at<Call>(call);
-  const Handle after = stamp_before(c);
+void Agenda::place(Ref<Call> call) {
+  Call& c = core_.at(call);
+  const Place after = stamp_before(c);
   put(entry_of(c));
+  unchain(c);
   try {
     core_.place(call, after);
   } catch (...) {
+    chain_unposted(c);
     take_from_index(c);
     throw;
   }
-  unchain(c);
   --waiting_calls_;
 }
 
@@ -88,8 +89,8 @@ void Agenda::drain(Scope& s) {
 
 void Agenda::fail_drained_twice(const Call& caller) const {
   std::string text = Engine::describe(caller) + ": agenda '" + name_ + "' is drained twice";
-  if (state_ == State::draining && running_ != 0) {
-    text += "; of the first drain " + Engine::describe(*core_.at<Call>(running_)) + " is running";
+  if (state_ == State::draining && running_ != nullptr) {
+    text += "; of the first drain " + Engine::describe(core_.at(running_)) + " is running";
   }
   throw UsageError(text);
 }
@@ -97,9 +98,9 @@ void Agenda::fail_drained_twice(const Call& caller) const {
 // What an earlier drain ran waits again: that drain failed, if only at its end; or it is gone and
 // left its calls ahead; or it lies ahead, and is refused if it is still asked for.
 void Agenda::begin_drain(Scope& s) {
-  const Handle self = engine_.handle_of(s.self());
-  if (drain_call_ != 0 && drain_call_ != self) {
-    Call& other = *core_.at<Call>(drain_call_);
+  const Ref<Call> self = engine_.handle_of(s.self());
+  if (drain_call_ != nullptr && drain_call_ != self) {
+    Call& other = core_.at(drain_call_);
     if (state_ != State::open && !engine_.lies_ahead(other)) {
       fail_drained_twice(core_.parent_of(s.self()));
     }
@@ -111,7 +112,7 @@ void Agenda::begin_drain(Scope& s) {
   }
   state_ = State::open;
   drain_call_ = self;
-  running_ = 0;
+  running_ = nullptr;
   ahead_ = {};
   core_.need_end();
   discard_placed();
@@ -119,17 +120,17 @@ void Agenda::begin_drain(Scope& s) {
 }
 
 void Agenda::discard_placed() {
-  std::vector<Handle> placed;
+  std::vector<Ref<Call>> placed;
   calls_.for_each([&](const Entry& entry) {
-    if (!core_.at<Call>(entry.call)->waiting()) placed.push_back(entry.call);
+    if (!core_.at(entry.call).waiting()) placed.push_back(entry.call);
   });
-  for (const Handle h : placed) core_.discard_subtree(h);
+  for (const Ref<Call> call : placed) core_.discard_subtree(call);
 }
 
 template <class Visit>
 void Agenda::for_each_waiting(Visit&& visit) const {
   const auto visit_waiting = [&](const Entry& entry) {
-    const Call& call = *core_.at<Call>(entry.call);
+    const Call& call = core_.at(entry.call);
     if (call.waiting()) visit(call);
   };
   calls_.for_each(visit_waiting);
@@ -142,13 +143,11 @@ void Agenda::for_each_waiting(Visit&& visit) const {
 // discarded, or must be refused: it runs again.
 void Agenda::set_later_posts_aside(const Call& drain) {
   for_each_waiting([&](const Call& call) {
-    for (Handle h = Slot::of(call).posts; h != 0;) {
-      PostEdge& post = post_at(h);
-      h = post.next_post;
-      if (post.place == 0 || !engine_.precedes(drain, engine_.time(post.place))) continue;
+    Posts::for_each(core_.arena(), Slot::of(call).posts, [&](PostEdge& post) {
+      if (post.place == nullptr || !engine_.precedes(drain, engine_.time(post.place))) return;
       engine_.invalidate(post.place);
       drop_post(post);
-    }
+    });
   });
 }
 
@@ -176,8 +175,8 @@ bool Agenda::find_next() {
 
 std::span<const Agenda::Entry> Agenda::entries_ahead() const {
   if (calls_.empty() || calls_.last().call == running_) return {};
-  return running_ != 0 ? calls_.behind(entry_of(*core_.at<Call>(running_)), order())
-                       : calls_.front();
+  return running_ != nullptr ? calls_.behind(entry_of(core_.at(running_)), order())
+                             : calls_.front();
 }
 
 // Puts the calls of the first class into calls_, or, if that fails, none.
@@ -191,7 +190,7 @@ void Agenda::sort_first_class() {
   try {
     for (; done < sorted.size(); ++done) at_end ? calls_.append(sorted[done]) : put(sorted[done]);
   } catch (...) {
-    while (done > 0) take_from_index(*core_.at<Call>(sorted[--done].call));
+    while (done > 0) take_from_index(core_.at(sorted[--done].call));
     throw;
   }
   classes_.erase(classes_.begin());
@@ -199,9 +198,9 @@ void Agenda::sort_first_class() {
 }
 
 void Agenda::run_next() {
-  const Handle next = ahead_.front().call;
-  Call& call = *core_.at<Call>(next);
-  if (Slot::of(call).posts == 0) {  // posted, then taken back
+  const Ref<Call> next = ahead_.front().call;
+  Call& call = core_.at(next);
+  if (Slot::of(call).posts == nullptr) {  // posted, then taken back
     take_from_index(call);
     return drop_waiting(next);
   }
@@ -223,12 +222,12 @@ std::size_t Agenda::bytes() const noexcept {
 void Agenda::check_invariants() const {
   const Call* previous = nullptr;
   calls_.for_each([&](const Entry& entry) {
-    const Call& c = *core_.at<Call>(entry.call);
+    const Call& c = core_.at(entry.call);
     SAC_INVARIANT(Slot::of(c).rank == entry.rank && Slot::of(c).order == entry.order);
     SAC_INVARIANT(previous == nullptr || before(*previous, c));
     if (!c.waiting()) {
       SAC_INVARIANT(c.life == Life::placed);
-      SAC_INVARIANT(Slot::of(c).posts != 0 || c.queue != 0);  // or it is dying
+      SAC_INVARIANT(Slot::of(c).posts != nullptr || c.queue != 0);  // or it is dying
       SAC_INVARIANT(previous == nullptr || engine_.precedes(*previous, c));
     }
     previous = &c;
@@ -236,9 +235,9 @@ void Agenda::check_invariants() const {
   std::uint64_t waiting = 0, unposted = 0, chained = 0;
   for_each_waiting([&](const Call& c) {
     ++waiting;
-    if (Slot::of(c).posts == 0) ++unposted;
+    if (Slot::of(c).posts == nullptr) ++unposted;
   });
-  for (Handle h = unposted_; h != 0; h = core_.at<Call>(h)->next_unposted) ++chained;
+  for (Place p = unposted_; p != nullptr; p = core_.at(p).next) ++chained;
   SAC_INVARIANT(waiting == waiting_calls_ && unposted == chained);
   SAC_INVARIANT(waiting == 0 || state_ != State::drained);
 }

@@ -5,6 +5,8 @@ namespace sac {
 
 namespace {
 
+using Unposted = detail::Chain<TimeNode, &TimeNode::prev, &TimeNode::next>;
+
 // Of a call that waits in a class. It has no time stamp, and thus no use for the stamp's label.
 std::uint32_t& place_in_class(Call& call) noexcept { return call.label; }
 
@@ -25,42 +27,43 @@ void Agenda::fail_irreflexive(const std::string& call) {
 void Agenda::post_call(Scope& s, const Entry& turn, const Asked& asked) {
   const Call& poster = s.self();
   const auto repeats = [&](const PostEdge& edge) {
-    const Call& c = *core_.at<Call>(edge.target);
+    const Call& c = core_.at(edge.target);
     return &c.function() == &asked.function && asked.function.equal(c, asked.arguments) &&
            (!core_.undoing() || has_turn(c, turn));
   };
   // Not found among so many, it is made anew: the old one goes with the others.
-  constexpr std::size_t kMost = 64;
-  PostEdge* edge = s.recall<PostEdge>(id_, kPost, repeats, kMost);
-  const bool known = edge != nullptr && !core_.at<Call>(edge->target)->dead();
-  const Handle h = posted_call(known ? edge->target : find_posted(turn, asked), turn, asked,
-                               [&](const Call& posted) { require_future(poster, posted); });
+  PostEdge* edge = s.recall<PostEdge>(id_, kPost, repeats, Scope::kMostRecalled);
+  const bool known = edge != nullptr && !core_.at(edge->target).dead();
+  const Ref<Call> call = posted_call(known ? edge->target : find_posted(turn, asked), turn, asked,
+                                     [&](const Call& posted) { require_future(poster, posted); });
   if (known && counts(*edge)) return;
   if (edge == nullptr) {
     edge = &s.effect<PostEdge>(id_, kPost);
     edge->place = s.place();
   }
-  add_post(*edge, h);
+  add_post(*edge, call);
 }
 
-// The call that is posted: `known`, or, if that is 0, a new one. It may be refused by `check`.
+// The call that is posted: `known`, or, if that is null, a new one. It may be refused by `check`.
 template <class Check>
-Handle Agenda::posted_call(Handle known, const Entry& turn, const Asked& asked, Check&& check) {
-  const Handle h = known != 0 ? known : create(turn, asked);
+Ref<Call> Agenda::posted_call(Ref<Call> known, const Entry& turn, const Asked& asked,
+                              Check&& check) {
+  const bool is_new = known == nullptr;
+  const Ref<Call> call = is_new ? create(turn, asked) : known;
   try {
-    if (known != 0) require_turn(*core_.at<Call>(h), turn);
-    check(*core_.at<Call>(h));
-    if (known == 0) state_ == State::drained ? place(h) : add_waiting(h);
+    if (!is_new) require_turn(core_.at(call), turn);
+    check(core_.at(call));
+    if (is_new) state_ == State::drained ? place(call) : add_waiting(call);
   } catch (...) {
-    if (known == 0) drop_waiting(h);
+    if (is_new) drop_waiting(call);
     throw;
   }
-  return h;
+  return call;
 }
 
 // The call of this label; in a roll-back only if it has this turn: what the failed propagation has
 // posted at another one is there until those who posted it are gone.
-Handle Agenda::find_posted(const Entry& turn, const Asked& asked) {
+Ref<Call> Agenda::find_posted(const Entry& turn, const Asked& asked) {
   return core_.find_posted(asked, [&](const Call& c) {
     return c.work_queue == id_ && (!core_.undoing() || has_turn(c, turn));
   });
@@ -71,20 +74,20 @@ bool Agenda::has_turn(const Call& call, const Entry& turn) noexcept {
   return slot.rank == turn.rank && slot.order == turn.order;
 }
 
-Handle Agenda::create(const Entry& turn, const Asked& asked) {
-  const Handle h = core_.new_call(asked);
-  Call& call = *core_.at<Call>(h);
+Ref<Call> Agenda::create(const Entry& turn, const Asked& asked) {
+  const Ref<Call> fresh = core_.new_call(asked);
+  Call& call = core_.at(fresh);
   Slot::of(call) = {.order = turn.order, .rank = turn.rank};
   call.work_queue = id_;
   ++waiting_calls_;
   chain_unposted(call);
-  return h;
+  return fresh;
 }
 
-void Agenda::add_waiting(Handle call) {
-  Call& c = *core_.at<Call>(call);
+void Agenda::add_waiting(Ref<Call> call) {
+  Call& c = core_.at(call);
   const Entry entry = entry_of(c);
-  if (state_ == State::draining && entry.rank == Slot::of(*core_.at<Call>(running_)).rank) {
+  if (state_ == State::draining && entry.rank == Slot::of(core_.at(running_)).rank) {
     return put(entry);
   }
   std::vector<Entry>& entries = classes_[entry.rank];
@@ -107,11 +110,11 @@ bool Agenda::in_future(const Call& posted) const {
     case State::open:
       return true;
     case State::draining:
-      return running_ != 0 && before(*core_.at<Call>(running_), posted);
+      return running_ != nullptr && before(core_.at(running_), posted);
     case State::drained:
       break;
   }
-  if (core_.lies_ahead(*core_.at<Call>(drain_call_))) return true;
+  if (core_.lies_ahead(core_.at(drain_call_))) return true;
   return posted.waiting() ? core_.is_ahead(stamp_before(posted)) : core_.lies_ahead(posted);
 }
 
@@ -122,7 +125,7 @@ void Agenda::require_future(const Call& poster, const Call& posted) const {
 }
 
 void Agenda::require_unused() const {
-  if (waiting_calls_ == 0 && calls_.empty() && drain_call_ == 0) return;
+  if (waiting_calls_ == 0 && calls_.empty() && drain_call_ == nullptr) return;
   throw UsageError("release: agenda '" + name_ +
                    "' is in use: calls are posted on it, or one drains it");
 }
@@ -130,31 +133,31 @@ void Agenda::require_unused() const {
 // --- The outside -----------------------------------------------------------------------------
 
 // Returns the post, which is in no call's list.
-Handle Agenda::outside_post(const Entry& turn, const Asked& asked) {
-  const Handle post = engine_.arena().allocate(sizeof(PostEdge));
-  ::new (core_.at<void>(post)) PostEdge();
+Ref<PostEdge> Agenda::outside_post(const Entry& turn, const Asked& asked) {
+  const Ref<PostEdge> post = engine_.arena().make<PostEdge>();
   try {
-    const Handle known = find_posted(turn, asked);
-    add_post(post_at(post), posted_call(known, turn, asked, [](const Call&) {}));
+    const Ref<Call> known = find_posted(turn, asked);
+    add_post(core_.at(post), posted_call(known, turn, asked, [](const Call&) {}));
   } catch (...) {
     if (engine_.idle()) core_.purge();
-    engine_.arena().release(post, sizeof(PostEdge));
+    engine_.arena().release(post);
     throw;
   }
   return post;
 }
 
-void Agenda::drop_outside(Handle post) noexcept {
-  drop_post(post_at(post));
-  engine_.arena().release(post, sizeof(PostEdge));
+void Agenda::drop_outside(Ref<PostEdge> post) noexcept {
+  drop_post(core_.at(post));
+  engine_.arena().release(post);
 }
 
 // One of the outside's posts of the call.
-Handle Agenda::require_posted(const Asked& asked) const {
-  const Handle h = core_.find_posted(asked, [&](const Call& c) { return c.work_queue == id_; });
-  Handle post = h != 0 ? Slot::of(*core_.at<Call>(h)).posts : 0;
-  while (post != 0 && post_at(post).place != 0) post = post_at(post).next_post;
-  if (post != 0) return post;
+Ref<PostEdge> Agenda::require_posted(const Asked& asked) const {
+  const Ref<Call> call =
+      core_.find_posted(asked, [&](const Call& c) { return c.work_queue == id_; });
+  Ref<PostEdge> post = call != nullptr ? Slot::of(core_.at(call)).posts : nullptr;
+  while (post != nullptr && core_.at(post).place != nullptr) post = core_.at(post).next_post;
+  if (post != nullptr) return post;
   throw UsageError("retract_from_outside: no call " + std::string(asked.function.name) +
                    " with these arguments is posted on agenda '" + name_ + "'");
 }
@@ -162,34 +165,24 @@ Handle Agenda::require_posted(const Asked& asked) const {
 // --- Taking back -----------------------------------------------------------------------------
 
 // A post counts from now on.
-void Agenda::add_post(PostEdge& post, Handle target) noexcept {
-  Call& call = *core_.at<Call>(target);
+void Agenda::add_post(PostEdge& post, Ref<Call> target) noexcept {
+  Call& call = core_.at(target);
   engine_.note(Event::Kind::posted, &call);
-  Handle& first = Slot::of(call).posts;
-  const Handle self = engine_.arena().handle_of(&post);
   post.target = target;
-  post.previous_post = 0;
-  post.next_post = first;
-  if (first != 0) {
-    post_at(first).previous_post = self;
-  } else if (call.waiting()) {
-    unchain(call);
-  }
-  first = self;
+  if (Slot::of(call).posts == nullptr && call.waiting()) unchain(call);
+  Posts::push(core_.arena(), Slot::of(call).posts, post);
 }
 
 // A post counts no longer, for now or for good. Requires: it counts.
 void Agenda::drop_post(PostEdge& post) noexcept {
-  Call& call = *core_.at<Call>(post.target);
+  Call& call = core_.at(post.target);
   if (engine_.observer() != nullptr) [[unlikely]] {
-    const Call* poster = post.place != 0 ? &core_.call_at(post.place) : nullptr;
+    const Call* poster = post.place != nullptr ? &core_.call_at(post.place) : nullptr;
     engine_.observer()->on({.kind = Event::Kind::unposted, .call = &call, .by = poster});
   }
-  if (post.next_post != 0) post_at(post.next_post).previous_post = post.previous_post;
-  (post.previous_post != 0 ? post_at(post.previous_post).next_post : Slot::of(call).posts) =
-      post.next_post;
-  post.previous_post = engine_.arena().handle_of(&post);
-  if (Slot::of(call).posts != 0 || call.dead()) return;
+  Posts::remove(core_.arena(), Slot::of(call).posts, post);
+  post.previous_post = Arena::ref(post);
+  if (Slot::of(call).posts != nullptr || call.dead()) return;
   call.waiting() ? chain_unposted(call) : core_.enqueue(call);
 }
 
@@ -199,30 +192,22 @@ void Agenda::retract(Call& call, Edge& edge) noexcept {
     if (counts(post)) drop_post(post);
   } else if (drain_call_ == engine_.handle_of(call)) {  // else another one has taken its place
     state_ = State::open;
-    drain_call_ = 0;
+    drain_call_ = nullptr;
   }
 }
 
 // A call that waits and that nobody posts may be posted again; else it leaves when the propagation
-// ends, or when its turn comes.
-void Agenda::chain_unposted(Call& call) noexcept {
-  const Handle self = engine_.handle_of(call);
-  call.previous_unposted = 0;
-  call.next_unposted = unposted_;
-  if (unposted_ != 0) core_.at<Call>(unposted_)->previous_unposted = self;
-  unposted_ = self;
-}
+// ends, or when its turn comes. It has no time stamp: the links of that chain it.
+void Agenda::chain_unposted(Call& call) noexcept { Unposted::push(core_.arena(), unposted_, call); }
 
 void Agenda::unchain(Call& call) noexcept {
-  const Handle previous = std::exchange(call.previous_unposted, 0);
-  const Handle next = std::exchange(call.next_unposted, 0);
-  if (next != 0) core_.at<Call>(next)->previous_unposted = previous;
-  (previous != 0 ? core_.at<Call>(previous)->next_unposted : unposted_) = next;
+  Unposted::remove(core_.arena(), unposted_, call);
+  call.prev = call.next = nullptr;
 }
 
 // Requires: nobody posts the call, and it is neither in calls_ nor in a class.
-void Agenda::drop_waiting(Handle call) noexcept {
-  Call& c = *core_.at<Call>(call);
+void Agenda::drop_waiting(Ref<Call> call) noexcept {
+  Call& c = core_.at(call);
   unchain(c);
   --waiting_calls_;
   engine_.note(Event::Kind::dying, &c);
@@ -230,11 +215,11 @@ void Agenda::drop_waiting(Handle call) noexcept {
 }
 
 void Agenda::drop_unposted() noexcept {
-  while (unposted_ != 0) {
-    const Handle h = unposted_;
-    Call& call = *core_.at<Call>(h);
+  while (unposted_ != nullptr) {
+    const Ref<Call> last = core_.as<Call>(unposted_);
+    Call& call = core_.at(last);
     if (!take_from_class(call)) take_from_index(call);
-    drop_waiting(h);
+    drop_waiting(last);
   }
 }
 
@@ -246,7 +231,7 @@ bool Agenda::take_from_class(Call& call) noexcept {
   const std::uint32_t i = place_in_class(call);
   if (i >= entries.size() || entries[i].call != engine_.handle_of(call)) return false;
   entries[i] = entries.back();
-  place_in_class(*core_.at<Call>(entries[i].call)) = i;
+  place_in_class(core_.at(entries[i].call)) = i;
   entries.pop_back();
   if (entries.empty()) classes_.erase(found);
   return true;

@@ -7,17 +7,17 @@
 
 namespace sac {
 
-void Core::execute(Handle call, Handle limit) {
-  const Handle end = at<Call>(call)->end;
-  Activation a{.limit = limit, .end = end, .end_linked = end != 0, .outer = current_};
+void Core::execute(Ref<Call> call, Place limit) {
+  const Place end = at(call).end;
+  Activation a{.limit = limit, .end = end, .end_linked = end != nullptr, .outer = current_};
   current_ = &a;
   try {
-    for (Handle link = call; link != 0;) {
+    for (Ref<Call> link = call; link != nullptr;) {
       run_body(a, link);
-      link = a.tail_state == Tail::fresh ? next_link(a) : 0;
+      link = has_new_tail(a) ? next_link(a) : nullptr;
     }
-    if (a.end != 0) close(a);
-    if (a.returned != 0) tell_caller(a.returned);
+    if (a.end != nullptr) close(a);
+    if (a.returned != nullptr) tell_caller(a.returned);
   } catch (...) {
     abandon(a);
     throw;
@@ -25,12 +25,13 @@ void Core::execute(Handle call, Handle limit) {
   current_ = a.outer;
 }
 
-void Core::run_body(Activation& a, Handle call) {
-  Call& c = *at<Call>(call);
+void Core::run_body(Activation& a, Ref<Call> call) {
+  Call& c = at(call);
   a.call = &c;
-  a.self = a.place = call;
-  a.old_edges = std::exchange(c.edges, 0);
-  a.cursor = a.failed_child = 0;
+  a.place = a.self = call;
+  a.old_edges = std::exchange(c.edges, nullptr);
+  a.cursor = nullptr;
+  a.failed_child = nullptr;
   a.link = &c.edges;
   a.failed = false;
   c.round ^= 1;
@@ -49,8 +50,8 @@ void Core::run_body(Activation& a, Handle call) {
 
 // What has failed must run again: nobody may go on as if it had not.
 void Core::fail_caught(const Activation& a) const {
-  const std::string whose = a.failed_child != 0
-                                ? "what " + Engine::describe(*at<Call>(a.failed_child)) + " threw"
+  const std::string whose = a.failed_child != nullptr
+                                ? "what " + Engine::describe(at(a.failed_child)) + " threw"
                                 : "what something that it asked of the engine threw";
   throw UsageError(Engine::describe(*a.call) + " has caught " + whose +
                    ": exceptions of calls must pass");
@@ -63,61 +64,59 @@ void Core::begin_segment(Activation& a) {
 }
 
 void Core::enter_segment(Activation& a) {
-  a.cursor = 0;
-  Handle segment = at<TimeNode>(now_)->next;
-  const bool known =
-      a.old_edges != 0 && segment == arena_.handle_of(&Segment::of(*at<Edge>(a.old_edges)));
+  a.cursor = nullptr;
+  Place here = at(now_).next;
+  const bool known = a.old_edges != nullptr && here == arena_.ref(Segment::of(at(a.old_edges)));
   if (known) {
-    a.old_edges = std::exchange(at<Edge>(a.old_edges)->next, 0);
+    a.old_edges = std::exchange(at(a.old_edges).next, nullptr);
   } else {
-    segment = arena_.allocate(sizeof(Segment));
-    auto& fresh = *::new (at<void>(segment)) Segment;
-    fresh.set_kind(TimeNode::Kind::segment);
-    fresh.edge.begins_segment = true;
-    fresh.call = a.self;
+    const Ref<Segment> fresh = arena_.make<Segment>();
+    at(fresh).set_kind(TimeNode::Kind::segment);
+    at(fresh).edge.begins_segment = true;
+    at(fresh).call = a.self;
     try {
-      timeline_.insert_after(now_, segment);
+      timeline_.insert_after(now_, fresh);
     } catch (...) {
-      arena_.release(segment, sizeof(Segment));
+      arena_.release(fresh);
       throw;
     }
+    here = fresh;
   }
-  Edge& edge = at<Segment>(segment)->edge;
+  Edge& edge = at(as<Segment>(here)).edge;
   edge.round = a.call->round;
-  append_edge(a, arena_.handle_of(&edge));
-  a.place = now_ = segment;
+  append_edge(a, arena_.ref(edge));
+  a.place = now_ = here;
 }
 
 // The call has said all it has to say: what it did not repeat is taken back. It has not seen that
 // in this execution, so it is not invalidated by it.
 void Core::settle(Activation& a) noexcept {
-  if (a.old_edges != 0) retract_all(*a.call, std::exchange(a.old_edges, 0));
+  if (a.old_edges != nullptr) retract_all(*a.call, std::exchange(a.old_edges, nullptr));
   a.call->life = Life::placed;
   a.call->validity = Validity::valid;
 }
 
 // Who depends on the result runs again at the place where it has it: behind everything in `call`'s
 // interval.
-void Core::tell_caller(Handle call) noexcept {
-  Call& caller = *at<Call>(ResultHead::of(*at<Call>(call)).caller);
+void Core::tell_caller(Ref<Call> call) noexcept {
+  Call& caller = at(ResultHead::of(at(call)).caller);
   if (!caller.running()) note(Event::Kind::returned, &caller);
-  ask_again(caller, end_of(call), Validity::invalid, nullptr, 0);
+  ask_again(caller, end_of(call), Validity::invalid, nullptr, nullptr);
 }
 
 // The new tail call that follows the link that has run.
-Handle Core::next_link(Activation& a) {
-  const Handle next = std::exchange(a.tail, 0);
-  a.tail_state = Tail::none;
+Ref<Call> Core::next_link(Activation& a) {
+  const Ref<Call> next = std::exchange(a.tail, nullptr);
   insert_call(next);
-  at<Call>(next)->end = a.end;
+  at(next).end = a.end;
   return next;
 }
 
 // Ends the interval: a reused tail ends it, what was not reused is discarded.
 void Core::close(Activation& a) {
-  if (a.tail_state == Tail::reused) {
+  if (a.tail != nullptr) {
     discard_between(now_, a.tail);
-    reuse(std::exchange(a.tail, 0));
+    reuse(std::exchange(a.tail, nullptr));
   }
   if (now_ == a.end) return;  // a reused tail may share the end
   if (a.end_linked) {
@@ -136,9 +135,9 @@ void Core::link_end(Activation& a) {
 // Client code threw: the call stays, as one that must run again.
 void Core::abandon(Activation& a) noexcept {
   note_failure(Event::Kind::failed, a.call);
-  if (a.tail_state == Tail::fresh) drop_call(std::exchange(a.tail, 0));
+  if (has_new_tail(a)) drop_call(std::exchange(a.tail, nullptr));
   settle(a);
-  if (a.end != 0 && !a.end_linked) {
+  if (a.end != nullptr && !a.end_linked) {
     // Cannot fail in the middle of a group with room; a failure leaves the call a leaf.
     try {
       link_end(a);
@@ -147,16 +146,15 @@ void Core::abandon(Activation& a) noexcept {
       broken_ = true;
     }
   }
-  if (a.returned != 0) tell_caller(a.returned);
+  if (a.returned != nullptr) tell_caller(a.returned);
   invalidate(a.self, nullptr);
   if (a.outer != nullptr) a.outer->failed_child = a.self;
   current_ = a.outer;
 }
 
-Handle Core::new_end() {
-  const Handle end = arena_.allocate(sizeof(TimeNode));
-  ::new (at<void>(end)) TimeNode;
-  at<TimeNode>(end)->set_kind(TimeNode::Kind::end);
+Place Core::new_end() {
+  const Place end = arena_.make<TimeNode>();
+  at(end).set_kind(TimeNode::Kind::end);
   return end;
 }
 

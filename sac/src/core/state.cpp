@@ -31,10 +31,6 @@ std::uint8_t Core::add_structure(Structure& structure) {
 
 // --- Entering --------------------------------------------------------------------------------
 
-void Core::require_usable() const {
-  if (broken_) throw UsageError("the engine is broken: a roll-back failed earlier");
-}
-
 void Core::require_idle(const char* what) const {
   if (idle()) return;
   std::string text = std::string(what) + ": the engine is running";
@@ -69,8 +65,6 @@ void Core::fail_foreign(const char* what) const {
 }
 
 void Core::enter(Mode mode) {
-  require_usable();
-  require_idle(mode == Mode::running ? "run" : "propagate");
   if (room_ < live_calls_) make_room(live_calls_);
   mode_ = mode;
   const auto here = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
@@ -81,17 +75,17 @@ void Core::enter(Mode mode) {
 
 void Core::run_root(const Asked& asked) {
   now_ = timeline_.back();
-  const Handle root = new_call(asked);
+  const Ref<Call> root = new_call(asked);
   insert_call(root);
-  execute(root, 0);
+  execute(root, nullptr);
 }
 
 // --- Leaving ---------------------------------------------------------------------------------
 
-void Core::forget_run(Handle before) noexcept {
+void Core::forget_run(Place before) noexcept {
   current_ = nullptr;
   note_failure(Event::Kind::roll_back_started);
-  discard_between(before, 0);
+  discard_between(before, nullptr);
   memo_.forget_waiting();  // only what this run made waits
 }
 
@@ -120,7 +114,7 @@ Counts Core::finish() noexcept {
 
 void Core::purge() noexcept {
   most_leaving_ = std::max(most_leaving_, graveyard_.size());
-  for (const Handle h : graveyard_) free_call(h);
+  for (const Ref<Call> call : graveyard_) free_call(call);
   graveyard_.clear();
 }
 
@@ -137,9 +131,9 @@ void Core::forget_names(Handle from, std::size_t bytes) noexcept {
 // counts at once.
 void Core::check_suspects() {
   for (const auto& [fresh, other] : suspects_) {
-    const Call& f = *at<Call>(fresh);
+    const Call& f = at(fresh);
     if (f.dead()) continue;
-    if (at<Call>(other)->dead()) {
+    if (at(other).dead()) {
       if (report_.reordered++ == 0) report_.first_reordered = Engine::describe(f);
     } else {
       if (report_.duplicates++ == 0) report_.first_duplicate = Engine::describe(f);
@@ -150,33 +144,30 @@ void Core::check_suspects() {
 // --- What there is ---------------------------------------------------------------------------
 
 Core::Sizes Core::sizes() const noexcept {
-  return {timeline_.bytes(), memo_.bytes(), queue_.bytes() + most_leaving_ * sizeof(Handle)};
+  return {timeline_.bytes(), memo_.bytes(), queue_.bytes() + most_leaving_ * sizeof(graveyard_[0])};
 }
 
 // What is linked from both of its sides is in the list: what has left has no links.
-bool Core::is_stamped(Handle h, std::size_t bytes, TimeNode::Kind kind) const noexcept {
-  const auto is_stamp = [&](Handle s) { return arena_.contains(s, sizeof(TimeNode)); };
-  if (!arena_.contains(h, bytes)) return false;
-  const TimeNode& node = *at<TimeNode>(h);
-  return node.kind() == kind && is_stamp(node.prev) && at<TimeNode>(node.prev)->next == h &&
-         (is_stamp(node.next) ? at<TimeNode>(node.next)->prev == h : h == timeline_.back());
+template <class T>
+bool Core::is_stamped(Ref<T> stamped) const noexcept {
+  if (!arena_.contains(stamped)) return false;
+  const Place place = stamped;
+  const TimeNode& node = at(place);
+  return node.kind() == T::kKind && arena_.contains(node.prev) && at(node.prev).next == place &&
+         (arena_.contains(node.next) ? at(node.next).prev == place : place == timeline_.back());
 }
 
-bool Core::is_live_call(Handle h) const noexcept {
-  return is_stamped(h, sizeof(Call), TimeNode::Kind::call);
-}
-
-bool Core::is_live_place(Handle h) const noexcept {
-  if (is_live_call(h)) return true;
-  return is_stamped(h, sizeof(Segment), TimeNode::Kind::segment) &&
-         is_live_call(at<Segment>(h)->call);
+bool Core::is_live_place(Place place) const noexcept {
+  if (is_stamped(Ref<Call>(place.handle()))) return true;
+  const Ref<Segment> segment(place.handle());
+  return is_stamped(segment) && is_stamped(at(segment).call);
 }
 
 const Call& Core::parent_of(const Call& call) const noexcept {
-  for (Handle h = call.prev; h != timeline_.front(); h = at<TimeNode>(h)->prev) {
-    if (!at<TimeNode>(h)->is_call()) continue;
-    const Call& c = *at<Call>(h);
-    const bool open = c.end != 0 && (!linked(c.end) || precedes(call, *at<TimeNode>(c.end)));
+  for (Place p = call.prev; p != timeline_.front(); p = at(p).prev) {
+    if (!at(p).is_call()) continue;
+    const Call& c = at(as<Call>(p));
+    const bool open = c.end != nullptr && (!linked(c.end) || precedes(call, at(c.end)));
     if (open) return c;
   }
   return call;
@@ -200,7 +191,7 @@ void Core::shrink() {
   memo_.shrink();
   timeline_.shrink();
   queue_.shrink(live_calls_);
-  std::vector<Handle> graveyard;
+  std::vector<Ref<Call>> graveyard;
   graveyard.reserve(live_calls_);
   graveyard_.swap(graveyard);
   most_leaving_ = graveyard_.capacity();  // taken from memory used before
@@ -219,20 +210,20 @@ void Core::check_invariants(std::uint64_t waiting) const {
     ++calls;
     SAC_INVARIANT(c.life == Life::placed);
     SAC_INVARIANT(c.validity == Validity::valid || c.queue != 0);
-    SAC_INVARIANT(c.end == 0 || precedes(c, *at<TimeNode>(c.end)));
-    SAC_INVARIANT(memo_.contains(arena_.handle_of(&c), c.function().hash(c)));
+    SAC_INVARIANT(c.end == nullptr || precedes(c, at(c.end)));
+    SAC_INVARIANT(memo_.contains(arena_.ref(c), c.function().hash(c)));
     const TimeNode* before = &c;
-    for (Handle e = c.edges; e != 0; e = at<Edge>(e)->next) {
-      SAC_INVARIANT(at<Edge>(e)->round == c.round);
-      if (at<Edge>(e)->begins_segment) {
-        const Segment& segment = Segment::of(*at<Edge>(e));
-        SAC_INVARIANT(segment.call == arena_.handle_of(&c) && precedes(*before, segment));
-        SAC_INVARIANT(c.end != 0 && precedes(segment, *at<TimeNode>(c.end)));
+    for (Ref<Edge> e = c.edges; e != nullptr; e = at(e).next) {
+      SAC_INVARIANT(at(e).round == c.round);
+      if (at(e).begins_segment) {
+        const Segment& segment = Segment::of(at(e));
+        SAC_INVARIANT(segment.call == arena_.ref(c) && precedes(*before, segment));
+        SAC_INVARIANT(c.end != nullptr && precedes(segment, at(c.end)));
         before = &segment;
         continue;
       }
       ++edges;
-      SAC_INVARIANT(at<Edge>(e)->structure < structures_.size());
+      SAC_INVARIANT(at(e).structure < structures_.size());
     }
   });
   SAC_INVARIANT(calls == live_calls_ && edges == live_edges());

@@ -17,32 +17,32 @@ std::string Engine::describe(const Call& call) {
   return out.str();
 }
 
-std::string Engine::describe_mod(Handle head) const {
-  if (head == 0) return "a modifiable that is null";
-  const std::string handle = '@' + std::to_string(head);
-  const auto name = core_.settings.names.find(head);
-  return name == core_.settings.names.end() ? "modifiable " + handle
-                                            : "modifiable '" + name->second + "' (" + handle + ')';
+std::string Engine::describe_mod(ModRef mod) const {
+  if (mod == nullptr) return "a modifiable that is null";
+  const std::string handle = '@' + std::to_string(mod.handle());
+  const auto name = settings.names.find(mod.handle());
+  return name == settings.names.end() ? "modifiable " + handle
+                                      : "modifiable '" + name->second + "' (" + handle + ')';
 }
 
 Memory Engine::memory() const noexcept {
-  const Core::Sizes sizes = core_.sizes();
+  const Core::Sizes known = sizes();
   Memory m;
   m.calls_and_edges_live = arena().bytes_used();
   m.calls_and_edges_held = arena().bytes_held();
-  m.time_stamps = sizes.time_stamps;
-  m.memo_table = sizes.memo_table;
-  m.queue = sizes.queue;
+  m.time_stamps = known.time_stamps;
+  m.memo_table = known.memo_table;
+  m.queue = known.queue;
   for (const auto& agenda : agendas_) m.agendas += agenda->bytes();
   m.versions = mods_->bytes();
   if (queries_ != nullptr) m.queries = queries_->bytes();
-  m.outside = (outside_.capacity() + released_.capacity()) * sizeof(Handle) +
+  m.outside = (outside_.capacity() + released_.capacity()) * sizeof(outside_[0]) +
               rollback_.capacity() * sizeof(rollback_[0]);
   return m;
 }
 
 std::vector<FunctionProfile> Engine::profile() const {
-  const Registry<Function>& known = core_.functions();
+  const Registry<Function>& known = functions();
   std::vector<FunctionProfile> functions(known.size());
   walk([&](const Call& c, std::size_t) {
     FunctionProfile& f = functions[c.function_number];
@@ -65,7 +65,7 @@ std::vector<FunctionProfile> Engine::profile() const {
 
 void Engine::shrink() {
   begin_edit("shrink");
-  core_.shrink();
+  Core::shrink();
   mods_->shrink();
   outside_.shrink_to_fit();
   released_.shrink_to_fit();
@@ -73,20 +73,20 @@ void Engine::shrink() {
 }
 
 void Engine::set_progress(std::function<bool(const Progress&)> report, std::uint64_t every) {
-  core_.require_idle("set_progress");
+  require_idle("set_progress");
   SAC_EXPECTS(every > 0);
-  core_.settings.progress = std::move(report);
-  core_.settings.progress_every = every;
+  settings.progress = std::move(report);
+  settings.progress_every = every;
 }
 
 void Engine::check_invariants() const {
   std::uint64_t waiting = 0;
   for (const auto& agenda : agendas_) waiting += agenda->waiting_calls();
-  core_.check_invariants(waiting);
+  Core::check_invariants(waiting);
   for (std::size_t i = 0; i < outside_.size(); ++i) {
-    SAC_INVARIANT(outside_head(outside_[i])->position == i);
+    SAC_INVARIANT(arena()[outside_[i]].position == i);
   }
-  core_.for_each_structure([](const Structure& s) { s.check_invariants(); });
+  for_each_structure([](const Structure& s) { s.check_invariants(); });
 }
 
 }  // namespace sac

@@ -26,18 +26,22 @@ class Unlimited {
 
 }  // namespace
 
-Engine::Engine() : core_(*this), mods_(std::make_unique<ModStructure>(*this)) {}
+Engine::Engine()
+    : Core(*this),
+      mods_(std::make_unique<ModStructure>(*this)),
+      watches_(std::make_unique<detail::Watches>(*mods_)) {}
 
 // Nothing is retracted: only what needs destroying is visited. Values go before the cells that
 // hold them.
 Engine::~Engine() {
   arena().header().ending = true;
   walk([&](const Call& c, std::size_t) { mods_->destroy_values(c); });
-  core_.for_each_call([](Call& c) {
+  for_each_call([](Call& c) {
     if (c.function().destroy != nullptr) c.function().destroy(c);
   });
-  for (const Handle h : outside_) {
-    outside_types_[outside_head(h)->type].destroy(outside_head(h) + 1);
+  for (const Ref<OutsideHead> object : outside_) {
+    OutsideHead& head = arena()[object];
+    outside_types_[head.type].destroy(&head + 1);
   }
 }
 
@@ -58,11 +62,16 @@ Agenda& Engine::make_agenda(std::string name, const KeyWidths& widths) {
 void Engine::release(Agenda& agenda) {
   begin_edit("release");
   agenda.require_unused();
-  core_.require_no_argument(agenda);
+  require_no_argument(agenda);
   std::erase_if(agendas_, [&](const auto& other) { return other.get() == &agenda; });
 }
 
 // --- Edits -----------------------------------------------------------------------------------
+
+void Engine::begin_edit(const char* what) const {
+  if (broken()) throw UsageError("the engine is broken: a roll-back failed earlier");
+  require_idle(what);
+}
 
 void Engine::undo_edits() {
   begin_edit("undo_edits");
@@ -76,7 +85,7 @@ void Engine::undo_edits_behind(std::size_t edits) {
     const Unlimited unlimited(arena());
     for (; rollback_.size() > edits; rollback_.pop_back()) rollback_.back()();
   } catch (...) {
-    core_.set_broken();
+    set_broken();
     throw;
   }
 }
@@ -85,66 +94,78 @@ void Engine::undo_edits_behind(std::size_t edits) {
 
 Counts Engine::run_root(const Asked& asked) {
   begin_edit("run");
-  if (!core_.settled()) {
+  if (!settled()) {
     if (!rollback_.empty()) throw UsageError("run: propagate the edits first");
     propagate();  // what undone edits have left
   }
   require_released_unused();
-  core_.enter(Core::Mode::running);
+  enter(Core::Mode::running);
   forget_edits();
-  const Handle before = core_.last_stamp();
+  const Place before = last_stamp();
   try {
-    core_.run_root(asked);
-    require_released_unused();
-    core_.check_audit();
-    prepare_changes();
+    Core::run_root(asked);
+    conclude();
   } catch (...) {
-    core_.forget_run(before);
-    core_.finish();
-    forget_changes();
+    forget_run(before);
+    finish();
+    watches_->clear();
     throw;
   }
-  free_released();
-  return finish_changes();
+  return finish_all();
 }
 
 Counts Engine::propagate(const std::function<void()>& last) {
   begin_edit("propagate");
   try {
-    core_.enter(Core::Mode::propagating);
+    enter(Core::Mode::propagating);
   } catch (...) {  // no memory to begin with
     undo_edits_behind(0);
-    forget_changes();
+    watches_->clear();
     throw;
   }
   try {
-    core_.propagate();
-    require_released_unused();
-    core_.check_audit();
-    prepare_changes();
+    Core::propagate();
+    conclude();
     if (last) last();
   } catch (...) {
     roll_back();
     throw;
   }
   forget_edits();
+  return finish_all();
+}
+
+// What is left to do when the program has run, and may still fail.
+void Engine::conclude() {
+  require_released_unused();
+  check_audit();
+  if (settings.watching) watches_->prepare();
+}
+
+// Everything is done; who wants to know is told.
+Counts Engine::finish_all() {
   free_released();
-  return finish_changes();
+  const Counts work = finish();
+  if (settings.watching) {
+    watches_->commit();
+    watches_->call();
+  }
+  return work;
 }
 
 void Engine::roll_back() noexcept {
-  core_.begin_undoing();
-  if (core_.originals().lost()) core_.set_broken();
+  begin_undoing();
+  if (Core::originals().lost()) set_broken();
   try {
     const Unlimited unlimited(arena());
     for (auto undo = rollback_.rbegin(); undo != rollback_.rend(); ++undo) (*undo)();
-    if (!core_.broken()) core_.propagate();
+    if (!broken()) Core::propagate();
   } catch (...) {
-    core_.set_broken();
+    set_broken();
   }
   forget_edits();
-  core_.finish();
-  forget_changes();
+  finish();
+  watches_->clear();
 }
 
 // They can no longer be taken back. Of very many, as before a first run, the memory goes, too.

@@ -15,7 +15,7 @@ std::uint64_t Engine::weight_of(const Call& call) const noexcept {
 }
 
 void Engine::add_weight(Scope& s, std::uint64_t n) {
-  core_.add_weight(n);
+  Core::add_weight(n);
   weights_->add(s, n);
 }
 

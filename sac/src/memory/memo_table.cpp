@@ -9,7 +9,7 @@
 namespace sac {
 
 void MemoTable::put_among(Entry entry) {
-  if (!crowds_.empty() && belongs_in_crowd(*at(entry.call))) [[unlikely]] {
+  if (!crowds_.empty() && belongs_in_crowd(at(entry.call))) [[unlikely]] {
     if (const auto it = crowds_.find(entry.hash); it != crowds_.end()) {
       return it->second.insert(entry.call, order());
     }
@@ -21,7 +21,7 @@ void MemoTable::put_among(Entry entry) {
 void MemoTable::put_in_array(Entry entry) {
   std::size_t i = place(entry.hash);
   std::size_t equal = 0;
-  for (; entries_[i].call != 0 && entries_[i].hash <= entry.hash; ++i) {
+  for (; entries_[i].call != nullptr && entries_[i].hash <= entry.hash; ++i) {
     equal += entries_[i].hash == entry.hash;
   }
   if (equal >= kCrowd && !crowds_.contains(entry.hash)) [[unlikely]] {
@@ -29,7 +29,7 @@ void MemoTable::put_in_array(Entry entry) {
     if (crowds_.contains(entry.hash)) return put(entry);
   }
   std::size_t free = i;
-  while (entries_[free].call != 0) ++free;
+  while (entries_[free].call != nullptr) ++free;
   if (free + 1 >= entries_.size()) {
     entries_.resize(entries_.size() + entries_.size() / 2);  // many equal hashes, near the end
   }
@@ -43,8 +43,8 @@ void MemoTable::put_in_array(Entry entry) {
 void MemoTable::make_crowd(std::uint32_t hash) {
   Crowd crowd;
   const auto for_each = [&](auto&& visit) {
-    for (std::size_t i = place(hash); entries_[i].call != 0 && entries_[i].hash <= hash;) {
-      const bool leaves = entries_[i].hash == hash && belongs_in_crowd(*at(entries_[i].call));
+    for (std::size_t i = place(hash); entries_[i].call != nullptr && entries_[i].hash <= hash;) {
+      const bool leaves = entries_[i].hash == hash && belongs_in_crowd(at(entries_[i].call));
       if (!leaves || visit(i)) ++i;
     }
   };
@@ -60,7 +60,7 @@ void MemoTable::make_crowd(std::uint32_t hash) {
   });
 }
 
-void MemoTable::placed(Handle call, std::uint32_t hash) {
+void MemoTable::placed(Ref<Call> call, std::uint32_t hash) {
   const auto crowd = crowds_.find(hash);
   if (crowd == crowds_.end()) return;
   const std::size_t i = index_of(call, hash);
@@ -69,7 +69,7 @@ void MemoTable::placed(Handle call, std::uint32_t hash) {
   take_out(i);
 }
 
-void MemoTable::leaves(Handle call, std::uint32_t hash) noexcept {
+void MemoTable::leaves(Ref<Call> call, std::uint32_t hash) noexcept {
   const auto crowd = crowds_.find(hash);
   if (crowd == crowds_.end() || !holds(crowd->second, call)) return;
   crowd->second.erase(call, order());
@@ -100,34 +100,34 @@ void MemoTable::forget_waiting() noexcept {
   Entries().swap(waiting_);
 }
 
-void MemoTable::erase(Handle call, std::uint32_t hash) noexcept {
+void MemoTable::erase(Ref<Call> call, std::uint32_t hash) noexcept {
   const std::size_t i = index_of(call, hash);
   if (i == kNowhere) return;
   --size_;
   take_out(i);
 }
 
-std::size_t MemoTable::index_of(Handle call, std::uint32_t hash) const noexcept {
+std::size_t MemoTable::index_of(Ref<Call> call, std::uint32_t hash) const noexcept {
   std::size_t i = place(hash);
   for (; entries_[i].call != call; ++i) {
-    if (entries_[i].call == 0 || entries_[i].hash > hash) return kNowhere;
+    if (entries_[i].call == nullptr || entries_[i].hash > hash) return kNowhere;
   }
   return i;
 }
 
-bool MemoTable::holds(const Crowd& crowd, Handle call) const noexcept {
-  const Handle* found = crowd.place_of(call, order()).before;
+bool MemoTable::holds(const Crowd& crowd, Ref<Call> call) const noexcept {
+  const Ref<Call>* found = crowd.place_of(call, order()).before;
   return found != nullptr && *found == call;
 }
 
 void MemoTable::take_out(std::size_t i) noexcept {
-  for (; entries_[i + 1].call != 0 && place(entries_[i + 1].hash) <= i; ++i) {
+  for (; entries_[i + 1].call != nullptr && place(entries_[i + 1].hash) <= i; ++i) {
     entries_[i] = entries_[i + 1];
   }
   entries_[i] = {};
 }
 
-bool MemoTable::contains(Handle call, std::uint32_t hash) const noexcept {
+bool MemoTable::contains(Ref<Call> call, std::uint32_t hash) const noexcept {
   for (const Entry& e : waiting()) {
     if (e.call == call) return e.hash == hash;
   }
@@ -150,7 +150,7 @@ void MemoTable::resize(std::size_t places) {
   };
   std::size_t next = 0;
   for (const Entry& e : entries_) {
-    if (e.call == 0) continue;
+    if (e.call == nullptr) continue;
     next = std::max(next, place_in_fresh(e.hash));
     if (next + 1 >= fresh.size()) fresh.resize(fresh.size() + fresh.size() / 2);
     fresh[next++] = e;
@@ -169,22 +169,22 @@ void MemoTable::check_invariants() const {
   std::uint32_t last = 0;
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const Entry& e = entries_[i];
-    if (e.call == 0) continue;
+    if (e.call == nullptr) continue;
     SAC_INVARIANT(place(e.hash) <= i && last <= e.hash);
-    SAC_INVARIANT(place(e.hash) == i || entries_[i - 1].call != 0);
+    SAC_INVARIANT(place(e.hash) == i || entries_[i - 1].call != nullptr);
     last = e.hash;
     ++count;
   }
   for (const auto& [hash, crowd] : crowds_) {
     SAC_INVARIANT(!crowd.empty());
-    Handle previous = 0;
-    crowd.for_each([&](Handle h) {
-      SAC_INVARIANT(previous == 0 || order()(previous, h));
+    Ref<Call> previous;
+    crowd.for_each([&](Ref<Call> h) {
+      SAC_INVARIANT(previous == nullptr || order()(previous, h));
       previous = h;
       ++count;
     });
   }
-  SAC_INVARIANT(count == size_ && entries_.back().call == 0);
+  SAC_INVARIANT(count == size_ && entries_.back().call == nullptr);
 }
 
 }  // namespace sac

@@ -19,7 +19,7 @@ void PropagationQueue::shrink(std::size_t count) {
 }
 
 void PropagationQueue::push(Entry entry) {
-  SAC_ENSURES(at(entry.call)->queue == 0);
+  SAC_ENSURES(arena_[entry.call].queue == 0);
   ++size_;
   if (run_.size() < run_.capacity() && (run_.empty() || before(run_.back(), entry))) {
     return append_to_run(entry);
@@ -33,12 +33,12 @@ void PropagationQueue::push(Entry entry) {
 auto PropagationQueue::pop() -> Entry {
   const Entry first = front();
   const bool in_run = !run_.empty() && run_[run_begin_].call == first.call;
-  at(first.call)->queue = 0;
+  arena_[first.call].queue = 0;
   --size_;
   // The calls of a large batch lie anywhere in memory, with their edges behind them.
   constexpr std::size_t kAhead = 8;
   if (in_run && run_begin_ + kAhead < run_.size()) {
-    const char* const next = arena_.at<char>(run_[run_begin_ + kAhead].call);
+    const char* const next = reinterpret_cast<const char*>(&arena_[run_[run_begin_ + kAhead].call]);
     __builtin_prefetch(next);
     __builtin_prefetch(next + 64);
   }
@@ -59,12 +59,12 @@ void PropagationQueue::erase(Call& call) noexcept {
 
 void PropagationQueue::erase_from_run(std::size_t position) noexcept {
   run_[position] = {};
-  while (run_begin_ < run_.size() && run_[run_begin_].call == 0) ++run_begin_;
+  while (run_begin_ < run_.size() && run_[run_begin_].call == nullptr) ++run_begin_;
   if (run_begin_ == run_.size()) {
     run_.clear();
     run_begin_ = 0;
   }
-  while (!run_.empty() && run_.back().call == 0) run_.pop_back();
+  while (!run_.empty() && run_.back().call == nullptr) run_.pop_back();
 }
 
 void PropagationQueue::erase_from_heap(std::size_t position) noexcept {
@@ -73,14 +73,14 @@ void PropagationQueue::erase_from_heap(std::size_t position) noexcept {
   if (position == heap_.size()) return;
   put(position, last);
   sift_up(position);
-  sift_down(at(last.call)->queue - 1);
+  sift_down(arena_[last.call].queue - 1);
 }
 
 void PropagationQueue::sort() noexcept {
   constexpr std::size_t kMany = 64;
   if (heap_.size() < kMany) return;
   struct Sorted {
-    Timeline::Place place;
+    Timeline::Position at;
     Entry entry;
   };
   std::vector<Sorted> entries;
@@ -92,13 +92,13 @@ void PropagationQueue::sort() noexcept {
   }
   const auto take = [&](const std::vector<Entry>& part) {
     for (const Entry& e : part) {
-      if (e.call != 0) entries.push_back({timeline_.place(time(e.place)), e});
+      if (e.call != nullptr) entries.push_back({timeline_.position(arena_[e.place]), e});
     }
   };
   take(heap_);
   take(run_);
   std::sort(entries.begin(), entries.end(), [this](const Sorted& a, const Sorted& b) {
-    return a.place != b.place ? a.place < b.place : before(a.entry, b.entry);
+    return a.at != b.at ? a.at < b.at : before(a.entry, b.entry);
   });
   heap_.clear();
   run_.clear();
@@ -129,19 +129,19 @@ void PropagationQueue::sift_down(std::size_t position) noexcept {
 
 void PropagationQueue::check_invariants() const {
   for (std::size_t i = 0; i < heap_.size(); ++i) {
-    SAC_INVARIANT(at(heap_[i].call)->queue == i + 1);
-    SAC_INVARIANT(!at(heap_[i].call)->dead());
+    SAC_INVARIANT(arena_[heap_[i].call].queue == i + 1);
+    SAC_INVARIANT(!arena_[heap_[i].call].dead());
     SAC_INVARIANT(i == 0 || !before(heap_[i], heap_[(i - 1) / 2]));
   }
   SAC_INVARIANT(run_.empty() ? run_begin_ == 0
-                             : run_[run_begin_].call != 0 && run_.back().call != 0);
+                             : run_[run_begin_].call != nullptr && run_.back().call != nullptr);
   std::size_t in_run = 0;
   Entry previous;
   for (std::size_t i = run_begin_; i < run_.size(); ++i) {
-    if (run_[i].call == 0) continue;
-    SAC_INVARIANT(at(run_[i].call)->queue == (kInRun | (i + 1)));
-    SAC_INVARIANT(!at(run_[i].call)->dead());
-    SAC_INVARIANT(previous.call == 0 || before(previous, run_[i]));
+    if (run_[i].call == nullptr) continue;
+    SAC_INVARIANT(arena_[run_[i].call].queue == (kInRun | (i + 1)));
+    SAC_INVARIANT(!arena_[run_[i].call].dead());
+    SAC_INVARIANT(previous.call == nullptr || before(previous, run_[i]));
     previous = run_[i];
     ++in_run;
   }

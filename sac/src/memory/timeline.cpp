@@ -29,20 +29,19 @@ constexpr std::uint64_t kMiddle = std::uint64_t{1} << 62;
 
 Timeline::Timeline(Arena& arena) : arena_(arena) {
   groups_.push_back(Group{.label = kMiddle});
-  front_ = back_ = arena_.allocate(sizeof(TimeNode));
-  *at(front_) = TimeNode{};
+  front_ = back_ = arena_.make<TimeNode>();
   size_ = 1;
 }
 
-void Timeline::insert_between(Handle place, Handle node) {
-  TimeNode& before = *at(place);
-  const Handle next = before.next;
+void Timeline::insert_between(Place place, Place node) {
+  TimeNode& before = at(place);
+  const Place next = before.next;
   const std::uint32_t group = before.group();
-  if (next != 0 && at(next)->group() == group) {
-    const std::uint32_t gap = at(next)->label - before.label;
+  if (next != nullptr && at(next).group() == group) {
+    const std::uint32_t gap = at(next).label - before.label;
     if (gap >= 2) return link(before, place, node, group, before.label + part(gap, place, next));
   } else if (const std::uint32_t room = kLastLabel - before.label; room > 2 * kAppendStep) {
-    const bool run = next == 0 || place == latest_;
+    const bool run = next == nullptr || place == latest_;
     const std::uint32_t step = run ? kAppendStep : room / 2;
     return link(before, place, node, group, before.label + step);
   }
@@ -50,12 +49,12 @@ void Timeline::insert_between(Handle place, Handle node) {
   insert_after(place, node);
 }
 
-void Timeline::erase(Handle node) noexcept {
-  const TimeNode n = *at(node);
+void Timeline::erase(Place node) noexcept {
+  const TimeNode n = at(node);
   const std::uint32_t group = n.group();
-  at(node)->prev = at(node)->next = 0;
-  at(n.prev)->next = n.next;
-  (n.next != 0 ? at(n.next)->prev : back_) = n.prev;
+  at(node).prev = at(node).next = nullptr;
+  at(n.prev).next = n.next;
+  (n.next != nullptr ? at(n.next).prev : back_) = n.prev;
   --size_;
   if (in_group(n.prev, group) || in_group(n.next, group)) return;
   join_groups(groups_[group].prev, groups_[group].next);
@@ -64,8 +63,8 @@ void Timeline::erase(Handle node) noexcept {
 
 // Nodes of one group on both sides of a gap, walked from there in step.
 struct Timeline::Surroundings {
-  Handle first = 0;
-  Handle last = 0;
+  Place first;
+  Place last;
   std::uint32_t left = 1;   // nodes from first to the one before the gap
   std::uint32_t right = 0;  // nodes from the one behind the gap to last
   bool left_ends = false;   // the group has no more on this side
@@ -73,21 +72,21 @@ struct Timeline::Surroundings {
 };
 
 // As far as one has to walk to know all of a small group, or the smaller side of a large one.
-Timeline::Surroundings Timeline::look_around(Handle place) const noexcept {
+Timeline::Surroundings Timeline::look_around(Place place) const noexcept {
   Surroundings s{.first = place, .last = place};
-  const std::uint32_t group = at(place)->group();
+  const std::uint32_t group = at(place).group();
   const auto done = [&] {
     if (s.left + s.right <= kSmall) return s.left_ends && s.right_ends;
     return s.left_ends || s.right_ends || s.left >= kFar;
   };
   do {
-    if (const Handle next = at(s.last)->next; in_group(next, group)) {
+    if (const Place next = at(s.last).next; in_group(next, group)) {
       s.last = next;
       ++s.right;
     } else {
       s.right_ends = true;
     }
-    if (const Handle prev = at(s.first)->prev; in_group(prev, group)) {
+    if (const Place prev = at(s.first).prev; in_group(prev, group)) {
       s.first = prev;
       ++s.left;
     } else {
@@ -101,44 +100,44 @@ Timeline::Surroundings Timeline::look_around(Handle place) const noexcept {
 // moves out, so that `place` is the last of its group; if that leaves it no room either, it moves
 // out alone the next time round. Where many nodes go to one place, it moves out with them at once,
 // to be alone on the smaller side from then on.
-void Timeline::make_room_after(Handle place) {
+void Timeline::make_room_after(Place place) {
   const Surroundings s = look_around(place);
-  const std::uint32_t group = at(place)->group();
+  const std::uint32_t group = at(place).group();
   if (s.left_ends && s.right_ends) return spread(s.first, group, s.left, s.right);
   if (s.left_ends) return spread(s.first, new_group(groups_[group].prev, group), s.left, 0);
   if (!s.right_ends) return chop(s.last);
   const std::uint32_t behind = new_group(group, groups_[group].next);
-  const Handle next = at(place)->next;
+  const Place next = at(place).next;
   if (s.right == 0 || next == latest_) return spread(place, behind, 1, s.right);
   spread(next, behind, s.right, 0);
 }
 
 // Stamps `left` nodes for the low end of a group, and the `right` nodes that follow for its high
 // end. Each side takes a quarter of the labels at most.
-void Timeline::spread(Handle first, std::uint32_t group, std::uint32_t left,
+void Timeline::spread(Place first, std::uint32_t group, std::uint32_t left,
                       std::uint32_t right) noexcept {
   constexpr std::uint32_t kQuarter = std::uint32_t{1} << 30;
   const std::uint32_t left_gap = std::min(kAppendStep, kQuarter / left);
   const std::uint32_t right_gap = std::min(kAppendStep, kQuarter / std::max(right, 1u));
-  Handle node = first;
-  for (std::uint32_t i = 1; i <= left; ++i, node = at(node)->next) {
-    stamp(*at(node), group, i * left_gap);
+  Place node = first;
+  for (std::uint32_t i = 1; i <= left; ++i, node = at(node).next) {
+    stamp(at(node), group, i * left_gap);
   }
-  for (std::uint32_t i = right; i > 0; --i, node = at(node)->next) {
-    stamp(*at(node), group, kLastLabel - i * right_gap);
+  for (std::uint32_t i = right; i > 0; --i, node = at(node).next) {
+    stamp(at(node), group, kLastLabel - i * right_gap);
   }
 }
 
 // Cuts the group of `node` into pieces, from the back, so that a failure to allocate leaves a
 // correct list.
-void Timeline::chop(Handle node) {
+void Timeline::chop(Place node) {
   constexpr std::uint32_t kGap = kLastLabel / (kPiece + 1);
-  const std::uint32_t group = at(node)->group();
-  while (in_group(at(node)->next, group)) node = at(node)->next;
+  const std::uint32_t group = at(node).group();
+  while (in_group(at(node).next, group)) node = at(node).next;
   while (in_group(node, group)) {
     const std::uint32_t piece = new_group(group, groups_[group].next);
-    for (std::uint32_t i = kPiece; i > 0 && in_group(node, group); --i, node = at(node)->prev) {
-      stamp(*at(node), piece, i * kGap);
+    for (std::uint32_t i = kPiece; i > 0 && in_group(node, group); --i, node = at(node).prev) {
+      stamp(at(node), piece, i * kGap);
     }
   }
   join_groups(groups_[group].prev, groups_[group].next);
@@ -221,8 +220,8 @@ void Timeline::shrink() {
   groups_.swap(fresh);
   free_groups_ = kNone;
   std::size_t i = 0;
-  for (Handle node = front_; node != 0; node = at(node)->next, ++i) {
-    stamp(*at(node), static_cast<std::uint32_t>(i / kFull),
+  for (Place node = front_; node != nullptr; node = at(node).next, ++i) {
+    stamp(at(node), static_cast<std::uint32_t>(i / kFull),
           static_cast<std::uint32_t>(i % kFull + 1) * kAppendStep);
   }
 }
@@ -230,13 +229,13 @@ void Timeline::shrink() {
 void Timeline::check_invariants() const {
   std::size_t count = 0;
   std::size_t groups = 1;
-  Handle previous = 0;
-  std::uint32_t group = at(front_)->group();
+  Place previous;
+  std::uint32_t group = at(front_).group();
   SAC_INVARIANT(groups_[group].prev == kNone);
-  for (Handle node = front_; node != 0; node = at(node)->next) {
-    const TimeNode& n = *at(node);
+  for (Place node = front_; node != nullptr; node = at(node).next) {
+    const TimeNode& n = at(node);
     SAC_INVARIANT(n.prev == previous);
-    SAC_INVARIANT(previous == 0 || precedes(*at(previous), n));
+    SAC_INVARIANT(previous == nullptr || precedes(at(previous), n));
     if (n.group() != group) {
       SAC_INVARIANT(groups_[group].next == n.group() && groups_[n.group()].prev == group);
       group = n.group();

@@ -54,7 +54,7 @@ class Recorder {
   /// Requires: no other object has this key.
   template <class T, class... Key>
   void name(sac::Mod<T> mod, const Key&... key) {
-    handles_[mod.head()] = hash_of_key(key...);
+    handles_[mod.head().handle()] = hash_of_key(key...);
   }
   /// Names an object that traced functions take or read by pointer; parts of it are named by its
   /// name and their offset.

@@ -1,7 +1,7 @@
 // The core: executes calls, keeps their trace, reuses and discards, and propagates.
 //
 // The parts around it, and the members that they use:
-//   Engine      the functions for clients: modes, counts, roll-back, introspection
+//   Engine      derived from it: modes, counts, roll-back, introspection
 //   Scope       operations of a running call: call_child, call_tail, recall, attach, guarded
 //   structures  Engine's public part "For structures": precedes, invalidate, doubt, ...
 //   Agenda      calls that are made before they run: "For work queues" below
@@ -27,6 +27,7 @@
 #include "sac/internal/originals.hpp"
 #include "sac/internal/propagation_queue.hpp"
 #include "sac/internal/registry.hpp"
+#include "sac/internal/same.hpp"
 #include "sac/internal/timeline.hpp"
 #include "sac/observer.hpp"
 #include "sac/structure.hpp"
@@ -82,7 +83,7 @@ struct Settings {
   std::size_t stack_limit = 0;
   bool audit = false;
   bool watching = false;
-  std::map<Handle, std::string> names;  // of modifiables
+  std::map<Handle, std::string> names;  // of modifiables, by their handles
 };
 
 class Core {
@@ -99,28 +100,28 @@ class Core {
   /// True while a first run appends to the trace: every call there is precedes the running one.
   [[nodiscard]] bool appending() const noexcept { return mode_ == Mode::running; }
   [[nodiscard]] bool undoing() const noexcept { return mode_ == Mode::undoing; }
-  /// Throws: UsageError if the engine is broken, or runs.
-  void require_usable() const;
+  /// Throws: UsageError if the engine runs.
   void require_idle(const char* what) const;
   /// Throws: UsageError unless what is in the trace is up to date.
   void require_settled(const char* what) const {
     if (current_ != nullptr || !(idle() || queue_.empty())) require_idle(what);
   }
+  /// Requires: idle, and usable.
   void enter(Mode mode);
   /// Makes the call at the end of the trace, and runs it. Throws: what the program throws.
   void run_root(const Asked& asked);
   /// Takes back what a run that failed has made.
-  void forget_run(Handle before) noexcept;
-  [[nodiscard]] Handle last_stamp() const noexcept { return timeline_.back(); }
+  void forget_run(Place before) noexcept;
+  [[nodiscard]] Place last_stamp() const noexcept { return timeline_.back(); }
   /// Runs what is invalid. Throws: what the program throws.
-  void propagate() { propagate_within(0); }
+  void propagate() { propagate_within(nullptr); }
   /// An exception has ended the propagation: what runs is no more; edits may be undone.
   void begin_undoing() noexcept;
   void set_broken() noexcept { broken_ = true; }
   [[nodiscard]] bool broken() const noexcept { return broken_; }
   /// Ends a run or propagation, failed or not. Returns its counts.
   Counts finish() noexcept;
-  [[nodiscard]] const AuditReport& report() const noexcept { return report_; }
+  [[nodiscard]] const AuditReport& audit() const noexcept { return report_; }
   void check_audit() {
     if (appending()) memo_.settle();
     if (settings.audit) check_suspects();
@@ -133,9 +134,9 @@ class Core {
   /// Throws: UsageError if no call runs.
   [[nodiscard]] Call& self() const { return *running().call; }
   /// Makes a child of the running call, or reuses one that is ahead of it in its interval.
-  Handle call_child(const Asked& asked);
+  Ref<Call> call_child(const Asked& asked);
   /// The same for what continues the running call, when that has ended.
-  Handle call_tail(const Asked& asked);
+  Ref<Call> call_tail(const Asked& asked);
   /// Gives the running call a new edge. Throws: std::bad_alloc.
   Edge& attach(std::uint8_t structure, std::uint8_t kind, std::size_t bytes) {
     running_here();
@@ -145,8 +146,8 @@ class Core {
   [[gnu::always_inline]] Edge& attach_here(std::uint8_t structure, std::uint8_t kind,
                                            std::size_t bytes) {
     Activation& a = *current_;
-    const Handle h = arena_.allocate(bytes);
-    Edge& edge = *at<Edge>(h);
+    const Ref<Edge> h(arena_.allocate(bytes));
+    Edge& edge = at(h);
     edge = {
         .structure = structure,
         .kind = static_cast<std::uint8_t>(kind & 0x3f),
@@ -157,9 +158,9 @@ class Core {
     return edge;
   }
   /// Whether the running call has edges of its last execution that it has not repeated yet.
-  [[nodiscard]] bool may_recall() const noexcept { return current_->old_edges != 0; }
+  [[nodiscard]] bool may_recall() const noexcept { return current_->old_edges != nullptr; }
   /// The running call's place in time: that of its segment.
-  [[nodiscard]] Handle place() { return running_here().place; }
+  [[nodiscard]] Place place() { return running_here().place; }
   /// Moves the first edge of last time, in the same segment, that `matches` into this execution.
   /// The search goes on where the last one ended, and ends after `most` edges.
   template <class Matches>
@@ -197,31 +198,48 @@ class Core {
 
   std::uint8_t add_structure(Structure& structure);
   void remove_structure(std::uint8_t number) noexcept { structures_[number] = nullptr; }
-  void invalidate(Handle place, const Edge* seen) noexcept {
-    ask_again(call_at(place), place, Validity::invalid, seen, 0);
+  void invalidate(Place place, const Edge* seen = nullptr) noexcept {
+    ask_again(call_at(place), place, Validity::invalid, seen, nullptr);
   }
-  void doubt(Handle place, Handle source) noexcept {
+  void invalidate(const Call& call, const Edge* seen = nullptr) noexcept {
+    invalidate(Arena::ref(call), seen);
+  }
+  void doubt(Place place, ModRef source = {}) noexcept {
     ask_again(call_at(place), place, Validity::doubtful, nullptr, source);
   }
+  void doubt(const Call& call, ModRef source = {}) noexcept { doubt(Arena::ref(call), source); }
   /// The call that has this place: the place is its own stamp, or that of a segment.
-  [[nodiscard]] Call& call_at(Handle place) const noexcept {
-    return *at<Call>(at<TimeNode>(place)->is_call() ? place : at<Segment>(place)->call);
+  [[nodiscard]] Call& call_at(Place place) const noexcept {
+    return at(at(place).is_call() ? as<Call>(place) : at(as<Segment>(place)).call);
   }
   [[nodiscard]] bool precedes(const TimeNode& a, const TimeNode& b) const noexcept {
     return timeline_.precedes(a, b);
   }
   /// Whether what the running call does now comes before `call`, which is not running.
   [[nodiscard]] bool lies_ahead(const Call& call) const noexcept {
-    return timeline_.precedes(*at<TimeNode>(now_), call);
+    return timeline_.precedes(at(now_), call);
   }
   template <class T>
-  [[nodiscard]] T* at(Handle h) const noexcept {
-    return arena_.at<T>(h);
+  [[nodiscard]] T& at(Ref<T> ref) const noexcept {
+    return arena_[ref];
+  }
+  /// The call, or the segment, that has this stamp. Requires: it is that of one.
+  template <class T>
+  [[nodiscard]] Ref<T> as(Place place) const noexcept {
+    SAC_ENSURES(at(place).kind() == T::kKind);
+    return Ref<T>(place.handle());
   }
   [[nodiscard]] Arena& arena() noexcept { return arena_; }
   [[nodiscard]] const Arena& arena() const noexcept { return arena_; }
-  [[nodiscard]] Structure& structure(std::uint8_t number) const noexcept {
-    return *structures_[number];
+  [[nodiscard]] const Structure& structure_of(const Edge& edge) const noexcept {
+    return *structures_[edge.structure];
+  }
+  template <class Visit>
+  void for_each_edge(const Call& call, Visit&& visit) const {
+    for (Ref<Edge> e = call.edges; e != nullptr; e = at(e).next) {
+      const Edge& edge = at(e);
+      if (!edge.begins_segment) visit(edge);
+    }
   }
   [[nodiscard]] const Call* running_call() const noexcept {
     return current_ != nullptr ? current_->call : nullptr;
@@ -230,21 +248,30 @@ class Core {
   /// Cost: O(calls between).
   [[nodiscard]] const Call& parent_of(const Call& call) const noexcept;
   /// Tells an observer, if there is one, what has happened, by the running call.
-  void note(Event::Kind kind, const Call* call = nullptr, Handle source = 0) noexcept {
+  void note(Event::Kind kind, const Call* call = nullptr, ModRef source = {}) noexcept {
     if (settings.observer == nullptr) [[likely]]
       return;
     settings.observer->on({.kind = kind, .call = call, .source = source, .by = running_call()});
   }
   [[nodiscard]] Originals& originals() noexcept { return originals_; }
+  /// While a failed propagation is undone, gives `value`, which `call` writes to `mod`, the bits of
+  /// the original if that is the same. Returns whether it has.
+  template <class Same, class T>
+  bool restore_original(const Call& call, ModRef mod, T& value) {
+    const T* const original = undoing() ? originals_.find<T>(call, mod) : nullptr;
+    if (original == nullptr || !detail::same<Same>(*original, value)) return false;
+    value = *original;
+    return true;
+  }
 
   // --- For work queues -----------------------------------------------------------------------
   //
   // A posted call is made (Life::waiting), gets its place or is run at once, and is discarded when
   // its turn comes and nobody asks for it (Slot::posts). Call::work_queue says whose it is.
 
-  /// The call of this label that `fits(call)`; 0 if there is none.
+  /// The call of this label that `fits(call)`; null if there is none.
   template <class Fits>
-  [[nodiscard]] Handle find_posted(const Asked& asked, Fits&& fits) {
+  [[nodiscard]] Ref<Call> find_posted(const Asked& asked, Fits&& fits) {
     const std::uint16_t number = number_of(asked.function);
     return memo_.find(asked.hash, [&](const Call& c) {
       return c.function_number == number && !c.dead() && fits(c) &&
@@ -252,31 +279,30 @@ class Core {
     });
   }
   /// A call that waits. Throws: std::bad_alloc, and what copying arguments throws.
-  Handle new_call(const Asked& asked);
+  Ref<Call> new_call(const Asked& asked);
   /// Gives a call that waits its place, right behind time stamp `after`, or now if that is not in
   /// the list yet, and puts it on the propagation queue.
-  void place(Handle call, Handle after);
+  void place(Ref<Call> call, Place after);
   /// Gives a call that waits its place, now, and runs it as a child of the running call.
-  void place_now(Handle call);
-  void run_placed(Handle call);
+  void place_now(Ref<Call> call);
+  void run_placed(Ref<Call> call);
   /// A call that waits leaves for good.
-  void drop_call(Handle call) noexcept;
+  void drop_call(Ref<Call> call) noexcept;
   /// A call that lost its place waits on.
   void set_waiting(Call& call) noexcept;
-  void discard_subtree(Handle call) noexcept;
+  void discard_subtree(Ref<Call> call) noexcept;
   /// A placed call that nobody posts any more goes when its turn comes.
-  void enqueue(Call& call) noexcept { enqueue(call, arena_.handle_of(&call)); }
+  void enqueue(Call& call) noexcept { enqueue(call, arena_.ref(call)); }
   /// The running call will have children: it has an end.
   void need_end() { need_end(running()); }
-  [[nodiscard]] Handle end_of(Handle call) const noexcept {
-    const Handle end = at<Call>(call)->end;
-    return end != 0 ? end : call;
+  [[nodiscard]] Place end_of(Ref<Call> call) const noexcept {
+    const Place end = at(call).end;
+    return end != nullptr ? end : call;
   }
   /// Whether a call put right behind time stamp `stamp` would lie ahead. (The end stamp of a
   /// running call may have no place yet.)
-  [[nodiscard]] bool is_ahead(Handle stamp) const noexcept {
-    return stamp == now_ || !linked(stamp) ||
-           timeline_.precedes(*at<TimeNode>(now_), *at<TimeNode>(stamp));
+  [[nodiscard]] bool is_ahead(Place stamp) const noexcept {
+    return stamp == now_ || !linked(stamp) || timeline_.precedes(at(now_), at(stamp));
   }
   [[nodiscard]] std::uint16_t number_of(const Function& function) {
     const std::uint16_t number = functions_.number(function);
@@ -295,12 +321,9 @@ class Core {
     return edges_before_ + counts_.edges_made - counts_.edges_removed;
   }
   [[nodiscard]] bool settled() const noexcept { return queue_.empty(); }
-  [[nodiscard]] Registry<Function>& functions() noexcept { return functions_; }
   [[nodiscard]] const Registry<Function>& functions() const noexcept { return functions_; }
-  /// Whether a call that is in the trace lies at `h`, where anything may lie.
-  [[nodiscard]] bool is_live_call(Handle h) const noexcept;
-  /// The same for a place.
-  [[nodiscard]] bool is_live_place(Handle h) const noexcept;
+  /// Whether a call that is in the trace has this place; anything may lie there.
+  [[nodiscard]] bool is_live_place(Place place) const noexcept;
   /// Calls visit(call, depth) for every placed call in pre-order.
   template <class Visit>
   void walk(Visit&& visit) const;
@@ -325,22 +348,19 @@ class Core {
   void forget_names(Handle from, std::size_t bytes) noexcept;
 
  private:
-  enum class Tail : std::uint8_t { none, fresh, reused };
-
   // One execution on the native stack: a call and the tail calls that continue it.
   struct Activation {
     Call* call = nullptr;
-    Handle self = 0;         // that call
-    Handle place = 0;        // of its segment
-    Handle old_edges = 0;    // what the call did last time and has not repeated yet
-    Handle cursor = 0;       // the old edge behind which the next one is looked for; 0: the first
-    Handle* link = nullptr;  // where the next edge of this execution goes
-    Handle limit = 0;  // end of the interval in which calls may be reused; 0: end of the trace
-    Handle end = 0;    // end stamp, once there are children
-    Handle tail = 0;
-    Handle returned = 0;      // the call that has returned something else than last time
-    Handle failed_child = 0;  // whose exception passes through the call's body
-    Tail tail_state = Tail::none;
+    Ref<Call> self{};           // that call
+    Place place{};              // of its segment
+    Ref<Edge> old_edges{};      // what the call did last time and has not repeated yet
+    Ref<Edge> cursor{};         // behind it the next old edge is looked for; null: the first
+    Ref<Edge>* link = nullptr;  // where the next edge of this execution goes
+    Place limit{};     // end of the interval in which calls may be reused; null: end of the trace
+    Place end{};       // end stamp, once there are children
+    Ref<Call> tail{};  // requested; a new one waits
+    Ref<Call> returned{};      // the call that has returned something else than last time
+    Ref<Call> failed_child{};  // whose exception passes through the call's body
     bool end_linked = false;
     bool failed = false;  // something that it asked for has thrown
     Activation* outer = nullptr;
@@ -358,83 +378,87 @@ class Core {
       begin_segment(a);
     return a;
   }
-  [[nodiscard]] bool is_stamped(Handle h, std::size_t bytes, TimeNode::Kind kind) const noexcept;
+  template <class T>
+  [[nodiscard]] bool is_stamped(Ref<T> stamped) const noexcept;
   [[noreturn]] void fail_not_running() const;
   void require_environment(std::string_view type) const;
   // An end stamp has no place until its call closes.
-  [[nodiscard]] bool linked(Handle stamp) const noexcept { return at<TimeNode>(stamp)->prev != 0; }
-  void ask_again(Call& call, Handle place, Validity validity, const Edge* seen,
-                 Handle source) noexcept;
-  void enqueue(Call& call, Handle place) noexcept;
+  [[nodiscard]] bool linked(Place stamp) const noexcept { return at(stamp).prev != nullptr; }
+  void ask_again(Call& call, Place place, Validity validity, const Edge* seen,
+                 ModRef source) noexcept;
+  void enqueue(Call& call, Place place) noexcept;
   void note_failure(Event::Kind kind, const Call* call = nullptr) noexcept;
 
   // execute.cpp
-  void execute(Handle call, Handle limit);
-  void run_body(Activation& a, Handle call);
+  void execute(Ref<Call> call, Place limit);
+  void run_body(Activation& a, Ref<Call> call);
   [[noreturn]] void fail_caught(const Activation& a) const;
   void begin_segment(Activation& a);
   void enter_segment(Activation& a);
   void settle(Activation& a) noexcept;
-  void tell_caller(Handle call) noexcept;
-  [[nodiscard]] Handle next_link(Activation& a);
+  void tell_caller(Ref<Call> call) noexcept;
+  [[nodiscard]] bool has_new_tail(const Activation& a) const noexcept {
+    return a.tail != nullptr && at(a.tail).waiting();
+  }
+  [[nodiscard]] Ref<Call> next_link(Activation& a);
   void close(Activation& a);
   void link_end(Activation& a);
   void abandon(Activation& a) noexcept;
   // A call gets its end stamp with its first child. It is linked when the call closes, because the
   // calls that it may still reuse lie between.
   void need_end(Activation& a) {
-    if (a.end == 0) a.end = new_end();
+    if (a.end == nullptr) a.end = new_end();
     a.call->end = a.end;
   }
-  [[nodiscard]] Handle new_end();
+  [[nodiscard]] Place new_end();
   void report_progress();
 
   // propagate.cpp
-  void propagate_within(Handle call);
-  [[nodiscard]] bool next_is_within(Handle call) const noexcept;
+  void propagate_within(Ref<Call> call);
+  [[nodiscard]] bool next_is_within(Ref<Call> call) const noexcept;
   [[nodiscard]] static bool unposted(const Call& call) noexcept {
-    return call.posted && Slot::of(call).posts == 0;
+    return call.posted && Slot::of(call).posts == nullptr;
   }
   void run_from_queue(PropagationQueue::Entry entry);
-  [[nodiscard]] bool confirmed(Call& call, Handle place);
+  [[nodiscard]] bool confirmed(Call& call, Place place);
   [[nodiscard]] bool unchanged(Call& call, Edge& edge);
-  void settle_child(Handle child);
+  void settle_child(Ref<Call> child);
 
   // interval.cpp
-  // A call to be reused; 0 if there is none, nor anything ahead: a first run.
-  [[nodiscard]] Handle find_reusable(const Asked& asked, bool tail) {
-    return at<TimeNode>(now_)->next != current_->limit ? find_ahead(asked, tail) : 0;
+  // A call to be reused; null if there is none, nor anything ahead: a first run.
+  [[nodiscard]] Ref<Call> find_reusable(const Asked& asked, bool tail) {
+    return at(now_).next != current_->limit ? find_ahead(asked, tail) : nullptr;
   }
-  [[nodiscard]] Handle find_ahead(const Asked& asked, bool tail);
-  void reuse(Handle child) noexcept;
+  [[nodiscard]] Ref<Call> find_ahead(const Asked& asked, bool tail);
+  void reuse(Ref<Call> child) noexcept;
   void settle_before(Activation& a, const TimeNode& child) noexcept;
   void pass(const Segment& segment) noexcept;
   [[noreturn]] void fail_call(const Activation& caller, const Function& function) const;
-  void insert_call(Handle call);
+  void insert_call(Ref<Call> call);
   void make_room(std::size_t calls);
-  void give_place(Handle call, Handle after);
+  void give_place(Ref<Call> call, Place after);
   void check_suspects();
-  void suspect(Handle fresh, const Asked& asked);
-  void free_call(Handle call) noexcept;
-  void discard_between(Handle from, Handle to) noexcept;
-  void discard(Handle call) noexcept;
-  [[nodiscard]] Handle retract(Call& call, Handle edges, const TimeNode* until) noexcept;
-  void retract_all(Call& call, Handle edges) noexcept {
+  void suspect(Ref<Call> fresh, const Asked& asked);
+  void free_call(Ref<Call> call) noexcept;
+  void discard_between(Place from, Place to) noexcept;
+  void discard(Ref<Call> call) noexcept;
+  [[nodiscard]] Ref<Edge> retract(Call& call, Ref<Edge> edges, const TimeNode* until) noexcept;
+  void retract_all(Call& call, Ref<Edge> edges) noexcept {
     static_cast<void>(retract(call, edges, nullptr));
   }
   // Moves the old edge at `link` into this execution.
-  Edge* take_old(Activation& a, Handle* link) noexcept {
-    const Handle handle = *link;
-    Edge& edge = *at<Edge>(handle);
+  Edge* take_old(Activation& a, Ref<Edge>* link) noexcept {
+    const Ref<Edge> taken = *link;
+    Edge& edge = at(taken);
     *link = edge.next;
-    edge.next = 0;
+    edge.next = nullptr;
     edge.round = a.call->round;
-    append_edge(a, handle);
+    append_edge(a, taken);
     return &edge;
   }
-  void append_edge(Activation& a, Handle edge) noexcept {
+  void append_edge(Activation& a, Ref<Edge> edge) noexcept {
     *a.link = edge;
-    a.link = &at<Edge>(edge)->next;
+    a.link = &at(edge).next;
   }
 
   Engine& engine_;
@@ -445,14 +469,14 @@ class Core {
   Registry<Function> functions_;
   std::vector<Structure*> structures_;
   Originals originals_;
-  std::vector<Handle> graveyard_;
+  std::vector<Ref<Call>> graveyard_;
   std::size_t most_leaving_ = 0;  // so much of it has been in use
   std::size_t room_ = 0;          // for so many calls there is room in all three
-  std::vector<std::pair<Handle, Handle>> suspects_;
+  std::vector<std::pair<Ref<Call>, Ref<Call>>> suspects_;
   AuditReport report_;
   Activation* current_ = nullptr;
   std::uintptr_t stack_end_ = 0;  // no call is made when the native stack has grown down to here
-  Handle now_ = 0;                // the last time stamp that is settled or running
+  Place now_;                     // the last time stamp that is settled or running
   Mode mode_ = Mode::idle;
   bool broken_ = false;
   std::uint64_t progress_at_ = ~std::uint64_t{0};  // number of bodies run at the next report
@@ -471,12 +495,11 @@ class WorkQueue : public Structure {
 template <class Matches>
 Edge* Core::recall(Matches&& matches, std::size_t most) {
   Activation& a = running_here();
-  if (a.old_edges == 0) return nullptr;
-  const auto search = [&](Handle previous, Handle end) -> Edge* {
-    Handle* link = previous != 0 ? &at<Edge>(previous)->next : &a.old_edges;
-    for (; *link != end && *link != 0 && most > 0;
-         previous = *link, link = &at<Edge>(*link)->next) {
-      Edge& edge = *at<Edge>(*link);
+  if (a.old_edges == nullptr) return nullptr;
+  const auto search = [&](Ref<Edge> previous, Ref<Edge> end) -> Edge* {
+    Ref<Edge>* link = previous != nullptr ? &at(previous).next : &a.old_edges;
+    for (; *link != end && *link != nullptr && most > 0; previous = *link, link = &at(*link).next) {
+      Edge& edge = at(*link);
       if (edge.begins_segment) break;
       --most;
       if (!matches(edge)) continue;
@@ -485,23 +508,23 @@ Edge* Core::recall(Matches&& matches, std::size_t most) {
     }
     return nullptr;
   };
-  const Handle start = a.cursor;
-  if (Edge* found = search(start, 0)) return found;
+  const Ref<Edge> start = a.cursor;
+  if (Edge* found = search(start, nullptr)) return found;
   // From the first one, up to and with the one where the search began.
-  return start != 0 ? search(0, at<Edge>(start)->next) : nullptr;
+  return start != nullptr ? search(nullptr, at(start).next) : nullptr;
 }
 
 template <class Visit>
 void Core::walk(Visit&& visit) const {
-  std::vector<Handle> open;  // end stamps of the intervals around the current call
-  for (Handle h = at<TimeNode>(timeline_.front())->next; h != 0; h = at<TimeNode>(h)->next) {
-    if (!at<TimeNode>(h)->is_call()) {
-      while (!open.empty() && open.back() == h) open.pop_back();
+  std::vector<Place> open;  // end stamps of the intervals around the current call
+  for (Place p = at(timeline_.front()).next; p != nullptr; p = at(p).next) {
+    if (!at(p).is_call()) {
+      while (!open.empty() && open.back() == p) open.pop_back();
       continue;
     }
-    const Call& c = *at<Call>(h);
+    const Call& c = at(as<Call>(p));
     visit(c, open.size());
-    if (c.end != 0) open.push_back(c.end);
+    if (c.end != nullptr) open.push_back(c.end);
   }
 }
 

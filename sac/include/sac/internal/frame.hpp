@@ -202,35 +202,44 @@ struct Called {
   }();
 };
 
-// A keyed object, without a body or with F(scope, object, key...).
-template <class T, class... Key>
+// A keyed object, with F(scope, object, key...), or without a body: F is nullptr.
+template <class T, auto F, class... Key>
 struct Made {
-  static constexpr auto name = &maker_name<T>;
+  static constexpr bool kHasBody = !std::is_null_pointer_v<decltype(F)>;
+  static constexpr auto name = [] {
+    if constexpr (kHasBody) {
+      return &function_name<F>;
+    } else {
+      return &maker_name<T>;
+    }
+  }();
   using FrameType = Frame<Nothing, Object<T>, Key...>;
   static constexpr Function function = [] {
     Function f = describe_frame<FrameType, name>();
     f.object_offset = sizeof(FrameType) - sizeof(Object<T>);  // it is what lies last
-    return f;
-  }();
-};
-template <class T, auto F, class... Key>
-struct Built {
-  static constexpr auto name = &function_name<F>;
-  using FrameType = Frame<Nothing, Object<T>, Key...>;
-  static constexpr Function function = [] {
-    Function f = describe_frame<FrameType, name>();
-    f.object_offset = Made<T, Key...>::function.object_offset;
-    f.execute = [](Scope& scope, Call& call) {
-      auto& frame = FrameType::of(call);
-      std::apply([&](const auto&... a) { F(scope, frame.tail.value, a...); }, frame.args);
-    };
+    if constexpr (kHasBody) {
+      f.execute = [](Scope& scope, Call& call) {
+        auto& frame = FrameType::of(call);
+        std::apply([&](const auto&... a) { F(scope, frame.tail.value, a...); }, frame.args);
+      };
+    }
     return f;
   }();
 };
 
 // --- Asking for a call -----------------------------------------------------------------------
 
-// A label on its way into a call of `What`: Called, Made, Built or Posted.
+// What a request with arguments of the types `Args` asks for.
+template <auto F, class... P>
+Called<F, P...> called(Types<P...>);
+template <class T, auto F, class... P>
+Made<T, F, P...> made(Types<P...>);
+template <auto F, class... Args>
+using CallBy = decltype(called<F>(parameters<F, false, Arrived<Args>...>()));
+template <class T, auto F, class... Key>
+using MadeBy = decltype(made<T, F>(parameters<F, true, Arrived<Key>...>()));
+
+// A label on its way into a call of `What`: Called, Made or Posted.
 template <class What>
 struct Label {
   typename What::FrameType::Arguments args;

@@ -32,19 +32,20 @@ class Raw {
   alignas(T) std::byte bytes_[sizeof(T)];
 };
 
-template <class K, class V, class... M>
+/// `Contribution`: a put, an add or a set (map.hpp).
+template <class K, class V, class Contribution, class... M>
 class MapEntries {
  public:
   struct Entry {
     K key;
     V value;
-    TreapLinks links{};
-    std::uint32_t size = 1;    // of the tree below, itself included
-    std::uint32_t users = 0;   // contributions that name it, those set aside included
-    Handle contributions = 0;  // those that count, by place; 0: it is not among the entries
-    Handle outside = 0;        // the one of the outside among them
-    Handle last = 0;           // place of the last of them
-    Handle latest = 0;         // place of the last one in the tree below
+    TreapLinks<Entry> links{};
+    std::uint32_t size = 1;           // of the tree below, itself included
+    std::uint32_t users = 0;          // contributions that name it, those set aside included
+    Ref<Contribution> contributions;  // that count, by place; null: it is not among the entries
+    Ref<Contribution> outside;        // the one of the outside among them
+    sac::Place last;                  // of the last of them
+    sac::Place latest;                // of the last one in the tree below
     std::uint64_t priority = 0;
     mutable std::tuple<std::optional<typename M::Value>...> folds{};  // of the tree below, if known
     Entry(const K& k, V&& v) : key(k), value(std::move(v)), priority(hash_key(k)) {}
@@ -57,55 +58,50 @@ class MapEntries {
 
   using Node = Entry;
   using Links = Treap<MapEntries>;
-  [[nodiscard]] Entry& node(Handle h) const noexcept { return *engine_.arena().at<Entry>(h); }
-  [[nodiscard]] std::uint64_t priority(Handle h) const noexcept { return node(h).priority; }
+  [[nodiscard]] Entry& node(Ref<Entry> h) const noexcept { return engine_.arena()[h]; }
+  [[nodiscard]] std::uint64_t priority(Ref<Entry> h) const noexcept { return node(h).priority; }
   bool update(Entry& e) const noexcept {
     const std::uint32_t size = std::exchange(e.size, 1);
-    const Handle latest = std::exchange(e.latest, e.last);
-    for (const Handle child : {e.links.left, e.links.right}) {
-      if (child == 0) continue;
-      e.size += node(child).size;
-      if (comes_before(e.latest, node(child).latest)) e.latest = node(child).latest;
+    sac::Place latest = e.last;
+    for (const Ref<Entry> child : {e.links.left, e.links.right}) {
+      if (child == nullptr) continue;
+      const Entry& c = node(child);
+      e.size += c.size;
+      if (comes_before(latest, c.latest)) latest = c.latest;
     }
-    return forget_folds(e) || e.size != size || e.latest != latest;
+    const bool is_new = std::exchange(e.latest, latest) != latest;
+    return forget_folds(e) || e.size != size || is_new;
   }
 
-  [[nodiscard]] static bool names(const Entry&, Handle) noexcept { return false; }
+  [[nodiscard]] static bool names(const Entry&, Ref<Entry>) noexcept { return false; }
 
-  /// Whether place a comes before place b. 0 is the place of the outside, before all.
-  [[nodiscard]] bool comes_before(Handle a, Handle b) const noexcept {
-    if (a == b || b == 0) return false;
-    return a == 0 || engine_.precedes(engine_.time(a), engine_.time(b));
+  /// Whether place a comes before place b. Null is the place of the outside, before all.
+  [[nodiscard, gnu::always_inline]] bool comes_before(sac::Place a, sac::Place b) const noexcept {
+    if (a == b || b == nullptr) return false;
+    return a == nullptr || engine_.precedes(engine_.time(a), engine_.time(b));
   }
 
   // --- Changing
 
   /// An entry that is not linked. Throws: std::bad_alloc, exceptions of copying the key.
-  [[nodiscard]] Handle make(const K& key, V&& value) {
-    const Handle h = engine_.arena().allocate(sizeof(Entry));
-    try {
-      ::new (engine_.arena().at<void>(h)) Entry(key, std::move(value));
-    } catch (...) {
-      engine_.arena().release(h, sizeof(Entry));
-      throw;
-    }
-    return h;
+  [[nodiscard]] Ref<Entry> make(const K& key, V&& value) {
+    return engine_.arena().template make<Entry>(key, std::move(value));
   }
-  void destroy(Handle h) noexcept {
+  void destroy(Ref<Entry> h) noexcept {
     node(h).~Entry();
-    engine_.arena().release(h, sizeof(Entry));
+    engine_.arena().release(h);
   }
 
   /// Where a key is, or belongs.
   struct Place {
-    Handle found = 0;
-    Handle parent = 0;
+    Ref<Entry> found{};
+    Ref<Entry> parent{};
     bool right = false;
   };
   [[nodiscard]] Place place_of(const K& key) const {
-    if (last_ != 0 && node(last_).key < key) return {.parent = last_, .right = true};
+    if (last_ != nullptr && node(last_).key < key) return {.parent = last_, .right = true};
     Place place;
-    for (Handle h = root_; h != 0;) {
+    for (Ref<Entry> h = root_; h != nullptr;) {
       const Entry& e = node(h);
       place.right = e.key < key;
       if (!place.right && !(key < e.key)) return {.found = h};
@@ -114,36 +110,36 @@ class MapEntries {
     }
     return place;
   }
-  void link(Handle h, const Place& place) noexcept {
+  void link(Ref<Entry> h, const Place& place) noexcept {
     Links::link(*this, root_, place.parent, place.right, h);
     if (place.right && place.parent == last_) last_ = h;
-    if (last_ == 0) last_ = h;
+    if (last_ == nullptr) last_ = h;
   }
-  void unlink(Handle h) noexcept {
+  void unlink(Ref<Entry> h) noexcept {
     if (last_ == h) last_ = Links::previous(*this, h);
-    if (cursor_ == h) cursor_ = 0;
+    if (cursor_ == h) cursor_ = nullptr;
     Links::unlink(*this, root_, h);
   }
   /// The last contribution of an entry has changed.
-  void last_changed(Handle h) noexcept { Links::refresh(*this, h); }
+  void last_changed(Ref<Entry> h) noexcept { Links::refresh(*this, h); }
   /// The value has.
-  void value_changed(Handle h) noexcept {
+  void value_changed(Ref<Entry> h) noexcept {
     if constexpr (sizeof...(M) > 0) {
-      while (h != 0 && forget_folds(node(h))) h = node(h).links.parent;
+      while (h != nullptr && forget_folds(node(h))) h = node(h).links.parent;
     }
   }
 
   // --- Asking (the questions of map_queries.hpp)
 
-  [[nodiscard]] bool empty() const noexcept { return root_ == 0; }
+  [[nodiscard]] bool empty() const noexcept { return root_ == nullptr; }
   [[nodiscard]] std::size_t size() const noexcept { return size_of(root_); }
-  [[nodiscard]] Handle find(const K& key) const {
-    if (cursor_ != 0) {
+  [[nodiscard]] Ref<Entry> find(const K& key) const {
+    if (cursor_ != nullptr) {
       if (same_key(node(cursor_).key, key)) return cursor_;
-      const Handle next = Links::next(*this, cursor_);
-      if (next != 0 && same_key(node(next).key, key)) return cursor_ = next;
+      const Ref<Entry> next = Links::next(*this, cursor_);
+      if (next != nullptr && same_key(node(next).key, key)) return cursor_ = next;
     }
-    for (Handle h = root_; h != 0;) {
+    for (Ref<Entry> h = root_; h != nullptr;) {
       const Entry& e = node(h);
       if (e.key < key) {
         h = e.links.right;
@@ -153,17 +149,17 @@ class MapEntries {
         return cursor_ = h;
       }
     }
-    return 0;
+    return nullptr;
   }
   using View = EntryView<K, V>;
   [[nodiscard]] View at(const K& key) const { return view(find(key)); }
   [[nodiscard]] View first_in(const Span<K>& span) const {
-    const Handle h = first(span);
-    return h != 0 && !span.is_above(node(h).key) ? view(h) : View{};
+    const Ref<Entry> h = first(span);
+    return h != nullptr && !span.is_above(node(h).key) ? view(h) : View{};
   }
   [[nodiscard]] View last_in(const Span<K>& span) const {
-    Handle best = 0;
-    for (Handle h = root_; h != 0;) {
+    Ref<Entry> best;
+    for (Ref<Entry> h = root_; h != nullptr;) {
       if (span.is_above(node(h).key)) {
         h = node(h).links.left;
       } else {
@@ -171,7 +167,7 @@ class MapEntries {
         h = node(h).links.right;
       }
     }
-    return best != 0 && !span.is_below(node(best).key) ? view(best) : View{};
+    return best != nullptr && !span.is_below(node(best).key) ? view(best) : View{};
   }
   [[nodiscard]] std::size_t count_in(const Span<K>& span) const {
     const std::size_t to = rank([&](const K& key) { return !span.is_above(key); });
@@ -180,8 +176,8 @@ class MapEntries {
   }
   [[nodiscard]] View at_rank(std::size_t r) const {
     if (r >= size()) return {};
-    for (Handle h = root_;;) {
-      const TreapLinks& l = node(h).links;
+    for (Ref<Entry> h = root_;;) {
+      const TreapLinks<Entry>& l = node(h).links;
       const std::size_t left = size_of(l.left);
       if (r == left) return view(h);
       h = r < left ? l.left : l.right;
@@ -190,7 +186,8 @@ class MapEntries {
   }
   template <class Visit>
   void for_each_in(const Span<K>& span, Visit&& visit) const {
-    for (Handle h = first(span); h != 0 && !span.is_above(node(h).key); h = Links::next(*this, h)) {
+    for (Ref<Entry> h = first(span); h != nullptr && !span.is_above(node(h).key);
+         h = Links::next(*this, h)) {
       visit(node(h).key, node(h).value);
     }
   }
@@ -198,11 +195,11 @@ class MapEntries {
   /// keys.
   template <class Fold>
   [[nodiscard]] typename Fold::Value fold_in(const Span<K>& span) const {
-    Handle h = root_;
-    while (h != 0 && !span.contains(node(h).key)) {
+    Ref<Entry> h = root_;
+    while (h != nullptr && !span.contains(node(h).key)) {
       h = span.is_below(node(h).key) ? node(h).links.right : node(h).links.left;
     }
-    if (h == 0) return Fold::none();
+    if (h == nullptr) return Fold::none();
     const Entry& e = node(h);
     auto own = joined<Fold>(fold_from<Fold>(e.links.left, span), Fold::of(e.key, e.value));
     return joined<Fold>(std::move(own), fold_to<Fold>(e.links.right, span));
@@ -211,12 +208,12 @@ class MapEntries {
   /// Calls visit(entry's handle) for those in the span that have a contribution at `place` or
   /// behind, until it returns true. Cost: O(log) of the entries, for each. Returns whether it did.
   template <class Visit>
-  bool any_reaching(Handle place, const Span<K>& span, Visit&& visit) const {
+  bool any_reaching(sac::Place place, const Span<K>& span, Visit&& visit) const {
     return any_reaching_below(root_, place, span, visit);
   }
   template <class Visit>
   void for_each(Visit&& visit) const {
-    for (Handle h = Links::first(*this, root_), next; h != 0; h = next) {
+    for (Ref<Entry> h = Links::first(*this, root_), next; h != nullptr; h = next) {
       next = Links::next(*this, h);
       visit(h);
     }
@@ -224,14 +221,14 @@ class MapEntries {
   void check_invariants() const {
     SAC_INVARIANT(Links::check_invariants(*this, root_) == size());
     SAC_INVARIANT(last_ == Links::last(*this, root_));
-    for_each([&](Handle h) {
+    for_each([&](Ref<Entry> h) {
       const Entry& e = node(h);
-      const Handle next = Links::next(*this, h);
-      SAC_INVARIANT(next == 0 || e.key < node(next).key);
+      const Ref<Entry> next = Links::next(*this, h);
+      SAC_INVARIANT(next == nullptr || e.key < node(next).key);
       std::size_t size = 1;
-      for (const Handle child : {e.links.left, e.links.right}) {
+      for (const Ref<Entry> child : {e.links.left, e.links.right}) {
         size += size_of(child);
-        SAC_INVARIANT(child == 0 || !comes_before(e.latest, node(child).latest));
+        SAC_INVARIANT(child == nullptr || !comes_before(e.latest, node(child).latest));
       }
       SAC_INVARIANT(e.size == size && !comes_before(e.latest, e.last));
       SAC_INVARIANT(e.latest == e.last || has_latest(e.links.left, e.latest) ||
@@ -245,21 +242,23 @@ class MapEntries {
     const auto forget = [](auto& fold) { return std::exchange(fold, std::nullopt).has_value(); };
     return std::apply([&](auto&... fold) { return (false | ... | forget(fold)); }, e.folds);
   }
-  [[nodiscard]] bool has_latest(Handle h, Handle latest) const noexcept {
-    return h != 0 && node(h).latest == latest;
+  [[nodiscard]] bool has_latest(Ref<Entry> h, sac::Place latest) const noexcept {
+    return h != nullptr && node(h).latest == latest;
   }
-  [[nodiscard]] std::size_t size_of(Handle h) const noexcept { return h != 0 ? node(h).size : 0; }
-  [[nodiscard]] View view(Handle h) const noexcept {
-    return h != 0 ? View{&node(h).key, &node(h).value} : View{};
+  [[nodiscard]] std::size_t size_of(Ref<Entry> h) const noexcept {
+    return h != nullptr ? node(h).size : 0;
+  }
+  [[nodiscard]] View view(Ref<Entry> h) const noexcept {
+    return h != nullptr ? View{&node(h).key, &node(h).value} : View{};
   }
   // The first entry that is not below the span.
-  [[nodiscard]] Handle first(const Span<K>& span) const {
-    if (cursor_ != 0 && span.is_below(node(cursor_).key)) {
-      const Handle next = Links::next(*this, cursor_);  // mostly, who asks goes on from there
-      if (next == 0 || !span.is_below(node(next).key)) return next;
+  [[nodiscard]] Ref<Entry> first(const Span<K>& span) const {
+    if (cursor_ != nullptr && span.is_below(node(cursor_).key)) {
+      const Ref<Entry> next = Links::next(*this, cursor_);  // mostly, who asks goes on from there
+      if (next == nullptr || !span.is_below(node(next).key)) return next;
     }
-    Handle best = 0;
-    for (Handle h = root_; h != 0;) {
+    Ref<Entry> best;
+    for (Ref<Entry> h = root_; h != nullptr;) {
       if (span.is_below(node(h).key)) {
         h = node(h).links.right;
       } else {
@@ -273,7 +272,7 @@ class MapEntries {
   template <class IsBefore>
   [[nodiscard]] std::size_t rank(IsBefore&& is_before) const {
     std::size_t before = 0;
-    for (Handle h = root_; h != 0;) {
+    for (Ref<Entry> h = root_; h != nullptr;) {
       const Entry& e = node(h);
       if (is_before(e.key)) {
         before += size_of(e.links.left) + 1;
@@ -296,8 +295,8 @@ class MapEntries {
     return b ? Fold::join(a, *b) : a;
   }
   template <class Fold>
-  [[nodiscard]] Part<Fold> fold_all(Handle h) const {
-    if (h == 0) return std::nullopt;
+  [[nodiscard]] Part<Fold> fold_all(Ref<Entry> h) const {
+    if (h == nullptr) return std::nullopt;
     const Entry& e = node(h);
     Part<Fold>& known = std::get<kIndexOf<Fold, std::tuple<M...>>>(e.folds);
     if (!known) {
@@ -307,16 +306,16 @@ class MapEntries {
     return known;
   }
   template <class Fold>
-  [[nodiscard]] Part<Fold> fold_from(Handle h, const Span<K>& span) const {
-    if (h == 0) return std::nullopt;
+  [[nodiscard]] Part<Fold> fold_from(Ref<Entry> h, const Span<K>& span) const {
+    if (h == nullptr) return std::nullopt;
     const Entry& e = node(h);
     if (span.is_below(e.key)) return fold_from<Fold>(e.links.right, span);
     auto own = joined<Fold>(fold_from<Fold>(e.links.left, span), Fold::of(e.key, e.value));
     return joined<Fold>(std::move(own), fold_all<Fold>(e.links.right));
   }
   template <class Fold>
-  [[nodiscard]] Part<Fold> fold_to(Handle h, const Span<K>& span) const {
-    if (h == 0) return std::nullopt;
+  [[nodiscard]] Part<Fold> fold_to(Ref<Entry> h, const Span<K>& span) const {
+    if (h == nullptr) return std::nullopt;
     const Entry& e = node(h);
     if (span.is_above(e.key)) return fold_to<Fold>(e.links.left, span);
     auto own = joined<Fold>(fold_all<Fold>(e.links.left), Fold::of(e.key, e.value));
@@ -324,8 +323,8 @@ class MapEntries {
   }
 
   template <class Visit>
-  bool any_reaching_below(Handle h, Handle place, const Span<K>& span, Visit& visit) const {
-    if (h == 0 || comes_before(node(h).latest, place)) return false;
+  bool any_reaching_below(Ref<Entry> h, sac::Place place, const Span<K>& span, Visit& visit) const {
+    if (h == nullptr || comes_before(node(h).latest, place)) return false;
     const Entry& e = node(h);
     const bool below = span.is_below(e.key);
     const bool above = span.is_above(e.key);
@@ -335,9 +334,9 @@ class MapEntries {
   }
 
   Engine& engine_;
-  Handle root_ = 0;
-  Handle last_ = 0;            // the greatest key
-  mutable Handle cursor_ = 0;  // the last one found
+  Ref<Entry> root_;
+  Ref<Entry> last_;            // the greatest key
+  mutable Ref<Entry> cursor_;  // the last one found
 };
 
 }  // namespace sac::detail

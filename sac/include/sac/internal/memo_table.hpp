@@ -35,20 +35,20 @@ class MemoTable {
       : arena_(arena), timeline_(timeline), entries_(kFirst + kFirst / 2), places_(kFirst) {}
 
   /// Throws: std::bad_alloc, and then changes nothing. Cost: O(1) expected.
-  void insert(Handle call, std::uint32_t hash) {
+  void insert(Ref<Call> call, std::uint32_t hash) {
     make_room();
     put({hash, call});
     ++size_;
   }
   /// A call of the table has got its place; is about to lose it. Needed only if has_crowds(), and
   /// not for posted calls. placed() throws std::bad_alloc, and then changes nothing.
-  void placed(Handle call, std::uint32_t hash);
-  void leaves(Handle call, std::uint32_t hash) noexcept;
+  void placed(Ref<Call> call, std::uint32_t hash);
+  void leaves(Ref<Call> call, std::uint32_t hash) noexcept;
   [[nodiscard]] bool has_crowds() const noexcept { return !crowds_.empty(); }
 
   /// As insert(), but into the table by settle() or the next search. Throws: std::bad_alloc, and
   /// then changes nothing.
-  void insert_soon(Handle call, std::uint32_t hash) {
+  void insert_soon(Ref<Call> call, std::uint32_t hash) {
     if (waiting_count_ == waiting_.size()) [[unlikely]]
       make_room_to_wait();
     waiting_[waiting_count_++] = {hash, call};
@@ -59,53 +59,59 @@ class MemoTable {
   void forget_waiting() noexcept;
 
   /// Does nothing if the call is not there, under this hash. Requires: it does not wait.
-  void erase(Handle call, std::uint32_t hash) noexcept;
+  void erase(Ref<Call> call, std::uint32_t hash) noexcept;
 
-  /// A call of this hash that `fits(call)`; 0 if there is none. Of a crowd only the first is asked.
+  /// A call of this hash that `fits(call)`; null if there is none. Of a crowd only the first is
+  /// asked.
   template <class Fits>
-  [[nodiscard]] Handle find(std::uint32_t hash, Fits&& fits) {
+  [[nodiscard]] Ref<Call> find(std::uint32_t hash, Fits&& fits) {
     if (waiting_count_ != 0) settle();
     for (std::size_t i = place(hash);; ++i) {
       const Entry& e = entries_[i];
-      if (e.call == 0 || e.hash > hash) break;
-      if (e.hash == hash && fits(*at(e.call))) return e.call;
+      if (e.call == nullptr || e.hash > hash) break;
+      if (e.hash == hash && fits(at(e.call))) return e.call;
     }
-    if (const Crowd* crowd = crowd_of(hash); crowd != nullptr && fits(*at(crowd->first()))) {
+    if (const Crowd* crowd = crowd_of(hash); crowd != nullptr && fits(at(crowd->first()))) {
       return crowd->first();
     }
-    return 0;
+    return nullptr;
   }
-  /// One that `fits(call)` and lies between the time stamps `from` and `to`; 0: the end.
+  /// One that `fits(call)` and lies between the time stamps `from` and `to`; null: the end.
   template <class Fits>
-  [[nodiscard]] Handle find_between(std::uint32_t hash, Handle from, Handle to, Fits&& fits) {
-    const auto lies_before = [&](Handle h) {
-      return to == 0 || timeline_.precedes(*at(h), *at(to));
+  [[nodiscard]] Ref<Call> find_between(std::uint32_t hash, Place from, Place to, Fits&& fits) {
+    const auto lies_before = [&](const Call& c) {
+      return to == nullptr || timeline_.precedes(c, arena_[to]);
     };
-    const Handle found = find(hash, [&](const Call& c) {
-      return fits(c) && timeline_.precedes(*at(from), c) && lies_before(arena_.handle_of(&c));
+    const Ref<Call> found = find(hash, [&](const Call& c) {
+      return fits(c) && timeline_.precedes(arena_[from], c) && lies_before(c);
     });
-    if (found != 0) return found;
+    if (found != nullptr) return found;
     const Crowd* crowd = crowd_of(hash);
     while (crowd != nullptr) {
-      const Handle* ahead = crowd->place_of(from, order()).behind;
-      if (ahead == nullptr || !lies_before(*ahead)) break;
-      if (fits(*at(*ahead))) return *ahead;
+      const Ref<Call>* ahead = crowd
+                                   ->place_of(from,
+                                              [&](Place place, Ref<Call> c) {
+                                                return timeline_.precedes(arena_[place], at(c));
+                                              })
+                                   .behind;
+      if (ahead == nullptr || !lies_before(at(*ahead))) break;
+      if (fits(at(*ahead))) return *ahead;
       from = *ahead;
     }
-    return 0;
+    return nullptr;
   }
 
   /// Whether the call is there, under this hash.
-  [[nodiscard]] bool contains(Handle call, std::uint32_t hash) const noexcept;
+  [[nodiscard]] bool contains(Ref<Call> call, std::uint32_t hash) const noexcept;
 
   /// Calls `visit(call)` for every call of the table.
   template <class Visit>
   void for_each(Visit&& visit) const {
-    for (const Entry& e : waiting()) visit(*at(e.call));
+    for (const Entry& e : waiting()) visit(at(e.call));
     for (const Entry& e : entries_) {
-      if (e.call != 0) visit(*at(e.call));
+      if (e.call != nullptr) visit(at(e.call));
     }
-    for (const auto& [hash, crowd] : crowds_) crowd.for_each([&](Handle h) { visit(*at(h)); });
+    for (const auto& [hash, crowd] : crowds_) crowd.for_each([&](Ref<Call> h) { visit(at(h)); });
   }
 
   /// Gives memory back that fewer calls do not need. Throws: std::bad_alloc, and then changes
@@ -120,18 +126,18 @@ class MemoTable {
  private:
   struct Entry {
     std::uint32_t hash = 0;
-    Handle call = 0;
+    Ref<Call> call;
   };
   static constexpr std::size_t kFirst = 512;
   static constexpr std::size_t kAhead = 16;  // more misses at once than a core can have
   static constexpr std::size_t kCrowd = 32;  // so many calls of one hash are searched one by one
-  using Crowd = SortedIndex<Handle>;         // never empty
+  using Crowd = SortedIndex<Ref<Call>>;      // never empty
 
-  [[nodiscard]] Call* at(Handle h) const noexcept { return arena_.at<Call>(h); }
+  [[nodiscard]] Call& at(Ref<Call> call) const noexcept { return arena_[call]; }
   struct Order {
     const MemoTable& table;
-    bool operator()(Handle a, Handle b) const noexcept {
-      return table.timeline_.precedes(*table.at(a), *table.at(b));
+    bool operator()(Ref<Call> a, Ref<Call> b) const noexcept {
+      return table.timeline_.precedes(table.at(a), table.at(b));
     }
   };
   [[nodiscard]] Order order() const noexcept { return {*this}; }
@@ -162,11 +168,11 @@ class MemoTable {
     __builtin_prefetch(&entries_[place(entry.hash)], 1);
   }
   static constexpr std::size_t kNowhere = ~std::size_t{0};
-  [[nodiscard]] std::size_t index_of(Handle call, std::uint32_t hash) const noexcept;
-  [[nodiscard]] bool holds(const Crowd& crowd, Handle call) const noexcept;
+  [[nodiscard]] std::size_t index_of(Ref<Call> call, std::uint32_t hash) const noexcept;
+  [[nodiscard]] bool holds(const Crowd& crowd, Ref<Call> call) const noexcept;
   void put(Entry entry) {
     Entry& home = entries_[place(entry.hash)];
-    if (home.call == 0 && crowds_.empty()) {
+    if (home.call == nullptr && crowds_.empty()) {
       home = entry;
     } else {
       put_among(entry);

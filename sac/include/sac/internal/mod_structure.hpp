@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "sac/engine.hpp"
+#include "sac/internal/chain.hpp"
 #include "sac/internal/sorted_index.hpp"
 #include "sac/internal/versions.hpp"
 #include "sac/scope.hpp"
@@ -48,13 +49,15 @@ class BasicStamp<false> {
 };
 using Stamp = BasicStamp<kChecked>;
 
+struct ReadEdge;
+
 // One value over a stretch of the trace: 16 bytes (20 with SAC_CHECKS), value behind it.
 struct Version {
-  Handle place = 0;    // where a call wrote it; 0: the outside
-  Handle readers = 0;  // chain of ReadEdges
+  Place place;            // where a call wrote it; null: the outside
+  Ref<ReadEdge> readers;  // chained
   union {
     std::uint32_t history = 0;  // in place: number of the History; 0: this is the only version
-    Handle modifiable;          // apart
+    Handle modifiable;          // apart: its handle
   };
   std::uint16_t type = 0;
   bool written : 1 = false;
@@ -95,20 +98,21 @@ struct TypedVersion : Version {
 // The versions of a modifiable that more than one call writes, in trace order.
 struct History {
   Versions versions;
-  Handle head = 0;
+  ModRef head;
 };
 
 struct ReadEdge : Edge {
-  Handle version;  // what it saw; 0: that is gone, and the call is invalid
-  Handle place;    // of the call that read it
-  Handle prev;     // previous reader; 0: first
-  Handle next_reader;
+  Ref<Version> version;  // what it saw; null: that is gone, and the call is invalid
+  Place place;           // of the call that read it
+  Ref<ReadEdge> prev;    // previous reader; null: first
+  Ref<ReadEdge> next_reader;
 };
 static_assert(sizeof(ReadEdge) == 24);
+using Readers = Chain<ReadEdge, &ReadEdge::prev, &ReadEdge::next_reader>;
 
 struct WriteEdge : Edge {
-  Handle head;  // the modifiable
-  Handle version;
+  ModRef head;  // the modifiable
+  Ref<Version> version;
 };
 static_assert(sizeof(WriteEdge) == 16);
 
@@ -120,7 +124,7 @@ struct ValueType {
   void (*print)(const Version&, std::ostream&);
   void (*label)(const Version&, LabelSink&);
   // Null if what is the same is equal: else what is replaced is kept for a roll-back.
-  void (*keep)(Originals&, const Call& writer, Handle head, const Version&) noexcept;
+  void (*keep)(Originals&, const Call& writer, ModRef head, const Version&) noexcept;
   std::uint32_t bytes;
 };
 
@@ -141,10 +145,10 @@ inline constexpr ValueType kValueType{
     [](const Version& v, std::ostream& out) { print_argument(out, value_of<T>(v), &v); },
     [](const Version& v, LabelSink& sink) { name_argument(sink, value_of<T>(v)); },
     kKeepsOriginals<T, Same>
-        ? [](Originals& originals, const Call& writer, Handle head, const Version& v) noexcept {
+        ? [](Originals& originals, const Call& writer, ModRef head, const Version& v) noexcept {
             if constexpr (kKeepsOriginals<T, Same>) originals.keep(writer, head, value_of<T>(v));
           }
-        : static_cast<void (*)(Originals&, const Call&, Handle, const Version&) noexcept>(nullptr),
+        : static_cast<void (*)(Originals&, const Call&, ModRef, const Version&) noexcept>(nullptr),
     sizeof(TypedVersion<T>)};
 
 }  // namespace detail
@@ -159,70 +163,68 @@ class ModStructure final : public Structure {
   // --- For calls
 
   /// The version that the running call sees, with the read recorded.
-  detail::Version& observe(Handle head);
+  detail::Version& observe(ModRef head);
   /// Writes `value` as the running call.
   template <class T, class Same>
-  void write(Handle head, T value);
+  void write(ModRef head, T value);
 
   // --- For watches
 
   /// The last version; null: nothing is written.
-  [[nodiscard]] detail::Version* newest(Handle head) const noexcept;
-  void set_watched(Handle head, bool on) noexcept { at(head)->watched = on; }
+  [[nodiscard]] detail::Version* newest(ModRef head) const noexcept;
+  void set_watched(ModRef head, bool on) noexcept { at(head).watched = on; }
 
   // --- For queries
 
   /// Whether a call has written it before `place`. Cost: O(1), or O(log of its versions).
-  [[nodiscard]] bool is_written_before(Handle place, Handle head) const noexcept {
-    const Version* const last = versions_around(place, head).before;
-    return last != nullptr && (last->place != place || predecessor(head, *last) != nullptr);
+  [[nodiscard]] bool is_written_before(Place place, ModRef head) const noexcept {
+    return last_before(place, head) != nullptr;
   }
   /// Whether no call writes or reads it. Requires: nothing is in doubt.
-  [[nodiscard]] bool is_unused(Handle head) const noexcept {
-    return is_untouched(*at(head)) && at(head)->readers == 0;
+  [[nodiscard]] bool is_unused(ModRef head) const noexcept {
+    return is_untouched(at(head)) && at(head).readers == nullptr;
   }
 
   // --- For the outside
 
   /// Throws: UsageError, with SAC_CHECKS, if the handle is not of this engine or its modifiable is
   /// gone; in any build if it is null.
-  void require_live(Handle head, detail::Stamp stamp, const char* what) const {
+  void require_live(ModRef head, detail::Stamp stamp, const char* what) const {
     if (kChecked) check_live(head, stamp, what);
-    if (head == 0) [[unlikely]]
+    if (head == nullptr) [[unlikely]]
       fail_null(what);
   }
-  [[nodiscard]] detail::Version* version(Handle head) const noexcept { return at(head); }
-  [[nodiscard]] bool is_input(Handle head) const noexcept { return at(head)->outside; }
+  [[nodiscard]] bool is_input(ModRef head) const noexcept { return at(head).outside; }
   template <class T>
-  [[nodiscard]] const T& value(Handle head) const noexcept {
-    return detail::value_of<T>(*at(head));
+  [[nodiscard]] const T& value(ModRef head) const noexcept {
+    return detail::value_of<T>(at(head));
   }
   /// Throws: UsageError if the program has written it.
-  void require_unwritten(Handle head) const;
+  void require_unwritten(ModRef head) const;
   template <class T>
-  void make_input(Handle head, std::uint16_t type, T value) noexcept {
-    auto& version = static_cast<detail::TypedVersion<T>&>(*at(head));
+  void make_input(ModRef head, std::uint16_t type, T value) noexcept {
+    auto& version = static_cast<detail::TypedVersion<T>&>(at(head));
     version.type = type;
     version.outside = true;
     version.give(std::move(value));
     if (version.watched) engine_.touched(head);
   }
-  void unmake_input(Handle head) noexcept;
+  void unmake_input(ModRef head) noexcept;
   template <class T>
-  void change_input(Handle head, T value) noexcept {
-    auto& version = static_cast<detail::TypedVersion<T>&>(*at(head));
-    replace(head, version, 0);
+  void change_input(ModRef head, T value) noexcept {
+    auto& version = static_cast<detail::TypedVersion<T>&>(at(head));
+    replace(head, version, nullptr);
     version.give(std::move(value));
   }
   /// The last version. Throws: UsageError if nothing is written.
-  [[nodiscard]] const detail::Version& last(Handle head) const;
+  [[nodiscard]] const detail::Version& last(ModRef head) const;
   /// The number of a type of values. Throws: std::bad_alloc.
   [[nodiscard]] std::uint16_t number(const detail::ValueType& type) { return types_.number(type); }
 
   /// A call that reads or writes a modifiable in the `bytes` from `from`, and which.
   struct Use {
     const Call* call = nullptr;  // null: none does
-    Handle head = 0;
+    ModRef mod{};
     bool writes = false;
   };
   [[nodiscard]] Use use_within(Handle from, std::size_t bytes) const noexcept;
@@ -246,104 +248,110 @@ class ModStructure final : public Structure {
   using Version = detail::Version;
   using ReadEdge = detail::ReadEdge;
 
-  [[nodiscard]] Version* at(Handle h) const noexcept { return engine_.arena().at<Version>(h); }
-  [[nodiscard]] ReadEdge* reader(Handle h) const noexcept {
-    return engine_.arena().at<ReadEdge>(h);
-  }
-  [[nodiscard]] Handle handle_of(const Version& version) const noexcept {
-    return engine_.arena().handle_of(&version);
+  template <class T>
+  [[nodiscard]] T& at(Ref<T> ref) const noexcept {
+    return engine_.arena()[ref];
   }
   [[nodiscard]] const Call& writer(const Version& version) const noexcept {
     return engine_.call_at(version.place);
   }
-  [[nodiscard]] bool precedes(Handle place, Handle other) const noexcept {
+  [[nodiscard]] bool precedes(Place place, Place other) const noexcept {
     return engine_.precedes(engine_.time(place), engine_.time(other));
   }
-  // Orders versions by their places; handle 0 stands for one at `probe`.
-  [[nodiscard]] auto order(Handle probe = 0) const noexcept {
-    return [this, probe](Handle a, Handle b) {
-      return precedes(a != 0 ? at(a)->place : probe, b != 0 ? at(b)->place : probe);
-    };
-  }
-  // Orders readers by their places; handle 0 stands for one at `probe`.
-  [[nodiscard]] auto reader_order(Handle probe = 0) const noexcept {
-    return [this, probe](Handle a, Handle b) {
-      const Handle x = a != 0 ? reader(a)->place : probe;
-      const Handle y = b != 0 ? reader(b)->place : probe;
-      return x == y ? a != 0 && b != 0 && a < b : precedes(x, y);
-    };
-  }
+  // The order of versions, and of readers, is that of their places.
+  struct Order {
+    const ModStructure& mods;
+    template <class T>
+    bool operator()(Place a, Ref<T> b) const noexcept {
+      return mods.precedes(a, mods.at(b).place);
+    }
+    bool operator()(Ref<Version> a, Ref<Version> b) const noexcept {
+      return (*this)(mods.at(a).place, b);
+    }
+    // Of the readers at one place the handles decide.
+    bool operator()(Ref<ReadEdge> a, Ref<ReadEdge> b) const noexcept {
+      const Place x = mods.at(a).place;
+      return x == mods.at(b).place ? a.handle() < b.handle() : (*this)(x, b);
+    }
+  };
+  [[nodiscard]] Order order() const noexcept { return {*this}; }
   [[nodiscard]] detail::History& history(std::uint32_t number) noexcept {
     return histories_[number];
   }
   [[nodiscard]] const detail::History& history(std::uint32_t number) const noexcept {
     return histories_[number];
   }
-  [[nodiscard]] Handle head_of(const Version& version) const noexcept {
-    return version.apart ? version.modifiable : handle_of(version);
+  [[nodiscard]] static ModRef head_of(const Version& version) noexcept {
+    return version.apart ? ModRef(version.modifiable) : Arena::ref(version);
   }
   // Whether it has no value: no call has written it, and it is no input.
   [[nodiscard]] static bool is_untouched(const Version& first) noexcept {
     return !first.written && first.history == 0;
+  }
+  [[nodiscard]] Version* pointer(Ref<Version> version) const noexcept {
+    return version != nullptr ? &at(version) : nullptr;
   }
   // Null: there is none.
   struct Around {
     Version* before;  // the last one up to the place, and at it
     Version* behind;  // the first one behind it
   };
-  [[nodiscard]] Around versions_around(Handle place, Handle head) const noexcept {
-    Version* const first = at(head);
+  [[nodiscard]] Around versions_around(Place place, ModRef head) const noexcept {
+    Version* const first = &at(head);
     if (first->history == 0) [[likely]] {
       if (!first->written) return {nullptr, nullptr};
       if (first->place == place || precedes(first->place, place)) return {first, nullptr};
       return {nullptr, first};
     }
-    const auto found = history(first->history).versions.place_of(0, order(place));
-    return {found.before != 0 ? at(found.before) : nullptr,
-            found.behind != 0 ? at(found.behind) : nullptr};
+    const auto found = history(first->history).versions.around(place, order());
+    return {pointer(found.before), pointer(found.behind)};
   }
-  void check_live(Handle head, detail::Stamp stamp, const char* what) const;
+  [[nodiscard]] Version* last_before(Place place, ModRef head) const noexcept {
+    Version* const last = versions_around(place, head).before;
+    return last != nullptr && last->place == place ? predecessor(head, *last) : last;
+  }
+  void check_live(ModRef head, detail::Stamp stamp, const char* what) const;
   [[noreturn]] void fail_null(const char* what) const;
 
   // read.cpp
   // The last version before the running call's `place`, or its own of this execution; null if there
   // is none.
-  [[nodiscard]] Version* seen_at(Handle place, Handle head) const {
-    const Version& first = *at(head);
+  [[nodiscard]] Version* seen_at(Place place, ModRef head) const {
+    const Version& first = at(head);
     if (first.history == 0 && first.written &&
         (engine_.appending() || precedes(first.place, place))) [[likely]] {
-      return at(head);
+      return &at(head);
     }
     return engine_.appending() ? newest(head) : seen_among(place, head);
   }
-  [[nodiscard]] ReadEdge* recall_read(Handle head, Handle seen);
-  [[nodiscard]] Version* seen_among(Handle place, Handle head) const;
-  [[nodiscard]] Version* visible_at(Handle place, const Version& seen) const;
-  [[noreturn]] void fail_unwritten(Handle place, Handle head) const;
+  [[nodiscard]] ReadEdge* recall_read(ModRef head, Ref<Version> seen);
+  [[nodiscard]] Version* seen_among(Place place, ModRef head) const;
+  [[nodiscard]] Version* visible_at(Place place, const Version& seen) const;
+  [[noreturn]] void fail_unwritten(Place place, ModRef head) const;
 
   // write.cpp
-  void tell(Event::Kind kind, const Call* call, Handle head) noexcept {
-    if (at(head)->watched) [[unlikely]]
+  void tell(Event::Kind kind, const Call* call, ModRef head) noexcept {
+    if (at(head).watched) [[unlikely]]
       engine_.touched(head);
     engine_.note(kind, call, head);
   }
-  Version* own_version(Handle head);
-  [[noreturn]] void fail_input(Handle head) const;
-  void repeat(Handle head, Handle version);
+  Version* own_version(ModRef head);
+  [[noreturn]] void fail_input(ModRef head) const;
+  void repeat(ModRef head, Ref<Version> version);
   [[nodiscard]] bool has_passed_on(const detail::WriteEdge& edge) const noexcept;
-  [[nodiscard]] Version* predecessor(Handle head, const Version& version) const noexcept;
-  Version& first_version(Handle head, const detail::ValueType& type);
-  Version& new_version(Handle head, const detail::ValueType& type);
-  Version& new_apart(Handle head, const detail::ValueType& type);
-  void enter_history(Handle head, Version& version, const detail::ValueType& type);
-  void replace(Handle head, Version& version, Handle except) noexcept;
-  void appeared(Handle head, Version& version, Version& previous, bool same) noexcept;
-  [[nodiscard]] std::uint32_t new_history(Handle head);
-  void drop_history(Handle head) noexcept;
-  void leave_past(Handle head, Version& version, Handle except) noexcept;
-  [[nodiscard]] Version* part_with_readers(Handle head, Version& version, Handle except) noexcept;
-  [[nodiscard]] Version* new_past(Handle head, const Version& version) noexcept;
-  void forget_version(Handle head, Version& version) noexcept;
+  [[nodiscard]] Version* predecessor(ModRef head, const Version& version) const noexcept;
+  Version& first_version(ModRef head, const detail::ValueType& type);
+  Version& new_version(ModRef head, const detail::ValueType& type);
+  Version& new_apart(ModRef head, const detail::ValueType& type);
+  void enter_history(ModRef head, Version& version, const detail::ValueType& type);
+  void replace(ModRef head, Version& version, Place except) noexcept;
+  void appeared(ModRef head, Version& version, Version& previous, bool same) noexcept;
+  [[nodiscard]] std::uint32_t new_history(ModRef head);
+  void drop_history(ModRef head) noexcept;
+  void leave_past(ModRef head, Version& version, Place except) noexcept;
+  [[nodiscard]] Version* part_with_readers(ModRef head, Version& version, Place except) noexcept;
+  [[nodiscard]] Version* new_past(ModRef head, const Version& version) noexcept;
+  void forget_version(ModRef head, Version& version) noexcept;
   void free_past(Version& version) noexcept;
 
   // readers.cpp
@@ -352,40 +360,39 @@ class ModStructure final : public Structure {
   void unlink_reader(ReadEdge& edge) noexcept;
   void move_reader(ReadEdge& edge, Version& to) noexcept;
   void orphan(ReadEdge& edge) noexcept;
-  void orphan_readers(const Version& version, Handle except) noexcept;
+  void orphan_readers(const Version& version, Place except) noexcept;
   // Visits the readers of `version` behind `place`, in any order; `visit` may unlink the one that
   // it is given. Cost: O(log) a reader visited; the first time that many others are passed, O(log)
   // for each of these.
   template <class Visit>
-  void for_each_reader_behind(const Version& version, Handle place, Visit&& visit);
+  void for_each_reader_behind(const Version& version, Place place, Visit&& visit);
+  [[nodiscard]] SortedIndex<Ref<ReadEdge>>& readers_in_order(const Version& version) noexcept {
+    return reader_orders_.find(Arena::ref(version).handle())->second;
+  }
   void order_readers(const Version& version) noexcept;
   void forget_order(Version& version) noexcept;
 
-  [[nodiscard]] Use use_of(Handle head) const noexcept;
-  void check_version(Handle v, Handle previous, Handle next) const;
-  void check_modifiable(Handle head) const;
+  [[nodiscard]] Use use_of(ModRef head) const noexcept;
+  void check_version(Ref<Version> v, Ref<Version> previous, Ref<Version> next) const;
+  void check_modifiable(ModRef head) const;
 
   Engine& engine_;
   std::uint8_t id_;
   Registry<detail::ValueType> types_;
   std::vector<detail::History> histories_;  // by number; the first is not used
   std::vector<std::uint32_t> free_histories_;
-  std::unordered_map<Handle, SortedIndex<Handle>> reader_orders_;  // by version
+  std::unordered_map<Handle, SortedIndex<Ref<ReadEdge>>> reader_orders_;  // by version
 };
 
 template <class T, class Same>
-void ModStructure::write(Handle head, T value) {
+void ModStructure::write(ModRef head, T value) {
   using Typed = detail::TypedVersion<T>;
   bool restored = false;
   if constexpr (detail::kKeepsOriginals<T, Same>) {
-    const T* original = engine_.undoing()
-                            ? engine_.originals()->template find<T>(engine_.core().self(), head)
-                            : nullptr;
-    restored = original != nullptr && detail::same<Same>(*original, value);
-    if (restored) value = *original;
+    restored = engine_.core().restore_original<Same>(engine_.core().self(), head, value);
   }
   const auto changed = [&] { tell(Event::Kind::changed, engine_.running_call(), head); };
-  if (is_untouched(*at(head))) {
+  if (is_untouched(at(head))) {
     static_cast<Typed&>(first_version(head, detail::kValueType<T, Same>)).give(std::move(value));
     return changed();
   }
@@ -404,13 +411,13 @@ void ModStructure::write(Handle head, T value) {
 }
 
 template <class Visit>
-void ModStructure::for_each_reader_behind(const Version& version, Handle place, Visit&& visit) {
+void ModStructure::for_each_reader_behind(const Version& version, Place place, Visit&& visit) {
   if (version.ordered) {
-    const auto& readers = reader_orders_.find(handle_of(version))->second;
-    const auto value = [](const Handle* h) { return h != nullptr ? *h : 0; };
-    for (Handle r = value(readers.place_of(0, reader_order(place)).behind); r != 0;) {
-      const Handle next = value(readers.place_of(r, reader_order()).behind);
-      visit(*reader(r));
+    const auto& readers = readers_in_order(version);
+    const auto value = [](const Ref<ReadEdge>* r) { return r != nullptr ? *r : nullptr; };
+    for (Ref<ReadEdge> r = value(readers.place_of(place, order()).behind); r != nullptr;) {
+      const Ref<ReadEdge> next = value(readers.place_of(r, order()).behind);
+      visit(at(r));
       r = next;
     }
     return;
@@ -418,26 +425,24 @@ void ModStructure::for_each_reader_behind(const Version& version, Handle place, 
   constexpr std::size_t kMany = 64;
   std::size_t passed = 0;
   std::size_t visited = 0;
-  for (Handle r = version.readers; r != 0;) {
-    ReadEdge& edge = *reader(r);
-    r = edge.next_reader;
+  detail::Readers::for_each(engine_.arena(), version.readers, [&](ReadEdge& edge) {
     if (precedes(place, edge.place)) {
       ++visited;
       visit(edge);
     } else {
       ++passed;
     }
-  }
+  });
   if (passed > kMany && passed / 8 > visited && !engine_.appending()) order_readers(version);
 }
 
 template <class T>
 void detail::TypedVersion<T>::end() noexcept {
-  if (readers != 0 && !Arena::header_of(this).ending) {
-    for (Handle r = readers; r != 0;) {
-      auto& edge = *Arena::in_arena_of<ReadEdge>(this, r);
+  if (readers != nullptr && !Arena::header_of(this).ending) {
+    for (Ref<ReadEdge> r = readers; r != nullptr;) {
+      ReadEdge& edge = Arena::in_arena_of(this, r);
       r = edge.next_reader;
-      edge.version = 0;
+      edge.version = nullptr;
     }
   }
   if (written) value().~T();

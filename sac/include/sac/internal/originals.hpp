@@ -19,23 +19,23 @@ namespace sac {
 
 class Originals {
  public:
-  /// Keeps what `call` had written to `place` (0: its result), unless that is known. If that fails,
-  /// it is lost.
+  /// Keeps what `call` had written to `mod` (null: its result), unless that is known. If that
+  /// fails, it is lost.
   template <class T>
-  void keep(const Call& call, Handle place, T&& value) noexcept {
+  void keep(const Call& call, ModRef mod, T&& value) noexcept {
     try {
-      if (find_item(call, place) != nullptr) return;
+      if (find_item(call, mod) != nullptr) return;
       auto kept = std::make_shared<std::decay_t<T>>(std::forward<T>(value));
-      items_.emplace(key(call, place), Item{&call, ++count_, std::move(kept)});
+      items_.emplace(key(call, mod), Item{&call, ++count_, std::move(kept)});
     } catch (...) {
       lost_ = true;
     }
   }
-  /// What `call`, or one that has been discarded and that it replaces, had written to `place`; null
+  /// What `call`, or one that has been discarded and that it replaces, had written to `mod`; null
   /// if not known. Throws: what comparing arguments throws.
   template <class T>
-  [[nodiscard]] const T* find(const Call& call, Handle place) {
-    const Item* item = find_item(call, place);
+  [[nodiscard]] const T* find(const Call& call, ModRef mod) {
+    const Item* item = find_item(call, mod);
     return item != nullptr ? static_cast<const T*>(item->value.get()) : nullptr;
   }
   /// Whether something could not be kept.
@@ -52,13 +52,13 @@ class Originals {
     std::uint64_t number;  // in the order in which they were kept
     std::shared_ptr<void> value;
   };
-  static std::uint64_t key(const Call& call, Handle place) {
-    return std::uint64_t{call.function().hash(call)} << 32 | place;
+  static std::uint64_t key(const Call& call, ModRef mod) {
+    return std::uint64_t{call.function().hash(call)} << 32 | mod.handle();
   }
   // The call's own; else that of a discarded call of this label, which it replaces from now on. Of
   // several the first: what was discarded in some order is mostly made anew in that order.
-  [[nodiscard]] Item* find_item(const Call& call, Handle place) {
-    const auto [first, last] = items_.equal_range(key(call, place));
+  [[nodiscard]] Item* find_item(const Call& call, ModRef mod) {
+    const auto [first, last] = items_.equal_range(key(call, mod));
     Item* replaced = nullptr;
     for (auto it = first; it != last; ++it) {
       Item& item = it->second;

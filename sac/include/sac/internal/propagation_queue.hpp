@@ -21,8 +21,8 @@ namespace sac {
 class PropagationQueue {
  public:
   struct Entry {
-    Handle call = 0;
-    Handle place = 0;
+    Ref<Call> call;
+    Place place;
   };
 
   PropagationQueue(Arena& arena, const Timeline& timeline) : arena_(arena), timeline_(timeline) {}
@@ -49,7 +49,7 @@ class PropagationQueue {
   /// the run, else O(log size).
   void push(Entry entry);
   /// Where the call waits. Requires: it is queued.
-  [[nodiscard]] Handle place_of(const Call& call) const noexcept {
+  [[nodiscard]] Place place_of(const Call& call) const noexcept {
     const std::uint32_t position = call.queue;
     return ((position & kInRun) != 0 ? run_[(position & ~kInRun) - 1] : heap_[position - 1]).place;
   }
@@ -72,22 +72,18 @@ class PropagationQueue {
   // A position in the run; others are in the heap.
   static constexpr std::uint32_t kInRun = std::uint32_t{1} << 31;
 
-  [[nodiscard]] Call* at(Handle h) const noexcept { return arena_.at<Call>(h); }
-  [[nodiscard]] const TimeNode& time(Handle place) const noexcept {
-    return *arena_.at<TimeNode>(place);
-  }
   // At one place the call that has it comes before the one that depends on its result.
   [[nodiscard]] bool before(const Entry& a, const Entry& b) const noexcept {
     return a.place == b.place ? a.call == a.place && b.call != b.place
-                              : timeline_.precedes(time(a.place), time(b.place));
+                              : timeline_.precedes(arena_[a.place], arena_[b.place]);
   }
   void put(std::size_t position, Entry entry) noexcept {
     heap_[position] = entry;
-    at(entry.call)->queue = static_cast<std::uint32_t>(position + 1);
+    arena_[entry.call].queue = static_cast<std::uint32_t>(position + 1);
   }
   void append_to_run(Entry entry) noexcept {
     run_.push_back(entry);
-    at(entry.call)->queue = kInRun | static_cast<std::uint32_t>(run_.size());
+    arena_[entry.call].queue = kInRun | static_cast<std::uint32_t>(run_.size());
     most_in_run_ = std::max(most_in_run_, run_.size());
   }
   void erase_from_run(std::size_t position) noexcept;
@@ -98,7 +94,7 @@ class PropagationQueue {
   Arena& arena_;
   const Timeline& timeline_;
   std::vector<Entry> heap_;
-  std::vector<Entry> run_;     // in order from run_begin_ on; 0: has left; the last is there
+  std::vector<Entry> run_;     // in order from run_begin_ on; null: has left; the last is there
   std::size_t run_begin_ = 0;  // is there, unless the run is empty
   std::size_t size_ = 0;
   std::size_t most_in_heap_ = 0;  // since the last shrink()

@@ -88,16 +88,18 @@ class SortedIndex {
     size_ = 0;
   }
 
-  /// What an entry, which may be there or not, lies between; null: nothing. Valid until a change.
+  /// What a probe lies between: an entry, which may be there or not, or something else of which
+  /// `before(probe, entry)` tells whether it comes before an entry. Null: nothing. Valid until a
+  /// change.
   struct Place {
     const Entry* before = nullptr;  // the last that does not come behind it
     const Entry* behind = nullptr;  // the first that does
   };
-  template <class Before>
-  [[nodiscard]] Place place_of(const Entry& entry, Before&& before) const {
+  template <class Probe, class Before>
+  [[nodiscard]] Place place_of(const Probe& probe, Before&& before) const {
     Place place;
     for (const Node* node = root_; node != nullptr;) {
-      const std::uint32_t i = position(*node, entry, before);
+      const std::uint32_t i = position(*node, probe, before);
       if (i > 0) place.before = entries(node) + i - 1;
       if (i < node->count) place.behind = entries(node) + i;
       node = node->height > 0 ? children(node)[i > 0 ? i - 1 : 0] : nullptr;
@@ -190,11 +192,11 @@ class SortedIndex {
 
   // --- Searching
 
-  // The number of entries of `node` that are not behind `entry`.
-  template <class Before>
-  static std::uint32_t position(const Node& node, const Entry& entry, Before& before) {
+  // The number of entries of `node` that are not behind the probe.
+  template <class Probe, class Before>
+  static std::uint32_t position(const Node& node, const Probe& probe, Before& before) {
     const Entry* const begin = entries(&node);
-    return static_cast<std::uint32_t>(std::upper_bound(begin, begin + node.count, entry, before) -
+    return static_cast<std::uint32_t>(std::upper_bound(begin, begin + node.count, probe, before) -
                                       begin);
   }
   [[nodiscard]] const Node* last_leaf() const noexcept {

@@ -25,10 +25,16 @@
 
 namespace sac {
 
+struct TimeNode;
+
+/// A place in the trace: a time stamp, by its handle. It is that of a call, of the end of one, or
+/// of a segment (trace.hpp).
+using Place = Ref<TimeNode>;
+
 /// The stamp itself, to be put at offset 0 of an arena object.
 struct TimeNode {
-  Handle prev = 0;
-  Handle next = 0;
+  Place prev;
+  Place next;
   std::uint32_t group_and_kind = 0;
   std::uint32_t label = 0;
 
@@ -50,17 +56,17 @@ class Timeline {
   explicit Timeline(Arena& arena);
 
   /// The first node; always there, never erased.
-  [[nodiscard]] Handle front() const noexcept { return front_; }
-  [[nodiscard]] Handle back() const noexcept { return back_; }
+  [[nodiscard]] Place front() const noexcept { return front_; }
+  [[nodiscard]] Place back() const noexcept { return back_; }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   /// Memory for the groups; the nodes are the arena's.
   [[nodiscard]] std::size_t bytes() const noexcept { return groups_.capacity() * sizeof(Group); }
 
   /// Puts `node` right after `place`. Throws: std::bad_alloc, and then changes nothing.
   /// Cost: amortised O(1).
-  void insert_after(Handle place, Handle node) {
-    TimeNode& before = *at(place);
-    if (before.next == 0 && kLastLabel - before.label > 2 * kAppendStep) {
+  void insert_after(Place place, Place node) {
+    TimeNode& before = at(place);
+    if (before.next == nullptr && kLastLabel - before.label > 2 * kAppendStep) {
       append(before, place, node);
     } else {
       insert_between(place, node);
@@ -68,7 +74,7 @@ class Timeline {
   }
 
   /// Takes `node` out, and clears its links. Requires: node != front(). Cost: O(1).
-  void erase(Handle node) noexcept;
+  void erase(Place node) noexcept;
 
   [[nodiscard]] bool precedes(const TimeNode& a, const TimeNode& b) const noexcept {
     const std::uint32_t ga = a.group();
@@ -77,13 +83,13 @@ class Timeline {
     return groups_[ga].label < groups_[gb].label;
   }
 
-  /// The place of a node as numbers, for sorting: good until nodes are inserted.
-  struct Place {
+  /// Where a node is, as numbers, for sorting: good until nodes are inserted.
+  struct Position {
     std::uint64_t group = 0;
     std::uint32_t label = 0;
-    friend auto operator<=>(const Place&, const Place&) = default;
+    friend auto operator<=>(const Position&, const Position&) = default;
   };
-  [[nodiscard]] Place place(const TimeNode& n) const noexcept {
+  [[nodiscard]] Position position(const TimeNode& n) const noexcept {
     return {groups_[n.group()].label, n.label};
   }
 
@@ -112,31 +118,31 @@ class Timeline {
   static constexpr int kHotPart = 4;
   static constexpr std::uint32_t kNarrow = std::uint32_t{1} << 10;
 
-  [[nodiscard]] TimeNode* at(Handle h) const noexcept { return arena_.at<TimeNode>(h); }
+  [[nodiscard]] TimeNode& at(Place place) const noexcept { return arena_[place]; }
 
   /// Where in the gap between `place` and `next`, 0 < part < gap. Requires: gap >= 2.
-  [[nodiscard]] std::uint32_t part(std::uint32_t gap, Handle place, Handle next) const noexcept {
+  [[nodiscard]] std::uint32_t part(std::uint32_t gap, Place place, Place next) const noexcept {
     if (gap < kNarrow) return gap / 2;
     if (place == latest_) return gap >> kRunPart;
     return next == latest_ ? gap - (gap >> kHotPart) : gap / 2;
   }
 
-  void link(TimeNode& before, Handle place, Handle node, std::uint32_t group,
+  void link(TimeNode& before, Place place, Place node, std::uint32_t group,
             std::uint32_t label) noexcept {
-    TimeNode& n = *at(node);
-    const Handle next = before.next;
+    TimeNode& n = at(node);
+    const Place next = before.next;
     n.prev = place;
     n.next = next;
     stamp(n, group, label);
-    (next != 0 ? at(next)->prev : back_) = node;
+    (next != nullptr ? at(next).prev : back_) = node;
     before.next = node;
     latest_ = node;
     ++size_;
   }
-  void append(TimeNode& last, Handle place, Handle node) noexcept {
-    TimeNode& n = *at(node);
+  void append(TimeNode& last, Place place, Place node) noexcept {
+    TimeNode& n = at(node);
     n.prev = place;
-    n.next = 0;
+    n.next = nullptr;
     stamp(n, last.group(), last.label + kAppendStep);
     last.next = back_ = latest_ = node;
     ++size_;
@@ -146,15 +152,15 @@ class Timeline {
     n.label = label;
   }
 
-  void insert_between(Handle place, Handle node);
+  void insert_between(Place place, Place node);
   struct Surroundings;
-  [[nodiscard]] Surroundings look_around(Handle place) const noexcept;
-  [[nodiscard]] bool in_group(Handle node, std::uint32_t group) const noexcept {
-    return node != 0 && at(node)->group() == group;
+  [[nodiscard]] Surroundings look_around(Place place) const noexcept;
+  [[nodiscard]] bool in_group(Place node, std::uint32_t group) const noexcept {
+    return node != nullptr && at(node).group() == group;
   }
-  void make_room_after(Handle place);
-  void spread(Handle first, std::uint32_t group, std::uint32_t left, std::uint32_t right) noexcept;
-  void chop(Handle place);
+  void make_room_after(Place place);
+  void spread(Place first, std::uint32_t group, std::uint32_t left, std::uint32_t right) noexcept;
+  void chop(Place place);
   [[nodiscard]] std::uint32_t new_group(std::uint32_t prev, std::uint32_t next);
   void free_group(std::uint32_t group) noexcept;
   void join_groups(std::uint32_t prev, std::uint32_t next) noexcept;
@@ -164,9 +170,9 @@ class Timeline {
   Arena& arena_;
   std::vector<Group> groups_;
   std::uint32_t free_groups_ = kNone;
-  Handle front_ = 0;
-  Handle back_ = 0;
-  Handle latest_ = 0;  // the last node that was inserted: a hint, it may be gone
+  Place front_;
+  Place back_;
+  Place latest_;  // the last node that was inserted: a hint, it may be gone
   std::size_t size_ = 0;
 };
 

@@ -66,20 +66,20 @@ class Watches {
 
   /// The watch of a modifiable. Throws: std::bad_alloc, and what copying its value throws.
   template <class T, class Same>
-  TypedWatch<T, Same>& at(Handle head) {
-    if (const auto known = all_.find(head); known != all_.end()) {
+  TypedWatch<T, Same>& at(ModRef mod) {
+    if (const auto known = all_.find(mod.handle()); known != all_.end()) {
       return static_cast<TypedWatch<T, Same>&>(*known->second);
     }
     auto fresh = std::make_shared<TypedWatch<T, Same>>();
-    if (fresh->prepare(mods_.newest(head))) fresh->commit();
+    if (fresh->prepare(mods_.newest(mod))) fresh->commit();
     touched_.reserve(all_.size() + 1);
-    all_.emplace(head, fresh);
-    mods_.set_watched(head, true);
+    all_.emplace(mod.handle(), fresh);
+    mods_.set_watched(mod, true);
     return *fresh;
   }
-  void touch(Handle head) noexcept;
+  void touch(ModRef mod) noexcept;
   /// Nobody watches it any more. Does nothing if nobody does.
-  void drop(Handle head) noexcept;
+  void drop(ModRef mod) noexcept;
   /// The modifiables in the `bytes` from `from` are gone.
   void forget(Handle from, std::size_t bytes) noexcept;
 
@@ -92,7 +92,7 @@ class Watches {
   void call();
   /// It has failed.
   void clear() noexcept { changed_.clear(); }
-  [[nodiscard]] bool has_changed(Handle head) const noexcept;
+  [[nodiscard]] bool has_changed(ModRef mod) const noexcept;
 
  private:
   using Changes = std::vector<std::pair<Handle, std::shared_ptr<Watch>>>;  // by handle
