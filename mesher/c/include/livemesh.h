@@ -443,8 +443,8 @@ typedef struct lm_name {
 typedef struct lm_write_options {
   size_t size;
   int32_t msh_version; /* of .msh: 41, or 22; 0: 41 */
-  int32_t reserved;
-  size_t names_count; /* names beside those that the mesh has, and before these */
+  int32_t only_these;  /* whether the names that the mesh has itself are left out */
+  size_t names_count;  /* names that count before those that the mesh has */
   const lm_name* names;
 } lm_write_options;
 

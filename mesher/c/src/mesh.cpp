@@ -202,10 +202,13 @@ lm_handle read(MeshData<D> data) {
 
 mesher::GroupNames names_of(const lm_write_options& options) {
   mesher::GroupNames names;
-  if (options.names_count > 0) require_pointer(options.names, "names");
+  require_array(options.names, options.names_count, "options->names");
+  const auto* bytes = reinterpret_cast<const unsigned char*>(options.names);
   for (std::size_t i = 0; i < options.names_count; ++i) {
-    const lm_name name = read_struct(options.names + i, "names");
-    require_pointer(name.name, "name");
+    // The caller's structs are as far apart as the first says they are large.
+    const auto* user = reinterpret_cast<const lm_name*>(bytes + i * options.names->size);
+    const lm_name name = read_struct(user, "options->names");
+    require_pointer(name.name, "options->names->name");
     if (name.kind == LM_NAME_FACETS) {
       names.facets[name.marker] = name.name;
     } else if (name.kind == LM_NAME_EDGES) {
@@ -488,6 +491,7 @@ lm_status lm_mesh_write_as(lm_handle mesh, const char* path, const lm_write_opti
     const mesher::MshVersion msh = msh_version_of(given);
     look(mesh, [&](const MeshObject&, auto& in) {
       auto named = in.corners();
+      if (given.only_these != 0) named.features.names = {};
       named.features.names.add(names);
       mesher::write_mesh(named, path, {.order = in.order(), .msh = msh});
     });
