@@ -17,10 +17,12 @@ struct SideOfSimplex {
   friend auto operator<=>(const SideOfSimplex&, const SideOfSimplex&) = default;
 };
 
+// Of both dimensions, of which a library may have one alone.
 std::array<std::array<std::uint32_t, 2>, 3> sides_seen_from_outside(const Mesh<2>::Simplex& s) {
   return {{{s[1], s[2]}, {s[2], s[0]}, {s[0], s[1]}}};
 }
-std::array<std::array<std::uint32_t, 3>, 4> sides_seen_from_outside(const Mesh<3>::Simplex& s) {
+[[maybe_unused]] std::array<std::array<std::uint32_t, 3>, 4> sides_seen_from_outside(
+    const Mesh<3>::Simplex& s) {
   return detail::faces_of(s);
 }
 
@@ -48,7 +50,7 @@ FacetSide<D> facet_at(const Mesh<D>& mesh, const SideOfSimplex<D>& side, std::in
 }
 
 std::array<std::uint32_t, 2> key_of(const MeshEdge& e) { return {e.low, e.high}; }
-std::array<std::uint32_t, 3> key_of(const MeshFace& f) { return f.key(); }
+[[maybe_unused]] std::array<std::uint32_t, 3> key_of(const MeshFace& f) { return f.key(); }
 
 template <int D>
 const auto& facets_of(const MeshFeatures& features) {

@@ -46,7 +46,7 @@ void add_corners(const std::array<std::uint32_t, N>& corners, TextFile& file) {
 void add_ordered(const std::array<std::uint32_t, 6>& n, TextFile& file) {
   add_corners(std::array{n[0], n[1], n[2], n[4], n[5], n[3]}, file);
 }
-void add_ordered(const std::array<std::uint32_t, 10>& n, TextFile& file) {
+[[maybe_unused]] void add_ordered(const std::array<std::uint32_t, 10>& n, TextFile& file) {
   add_corners(std::array{n[0], n[1], n[2], n[3], n[9], n[7], n[4], n[5], n[8], n[6]}, file);
 }
 template <std::size_t N>
