@@ -208,10 +208,12 @@ def nodes_of(path):
 
 
 def pull(judge, mesher, source, order, boundary, load, strains):
-    """A block under uniform tension: displacements are linear in the places."""
+    """A block under uniform tension or pressure: displacements are linear in the places."""
     run(mesher, "mesh", source, "-o", "mesh.inp", "--order", order, "--max-size", ".4", "--quiet",
         "--name-region", "3=steel", "--name-marker", "5=left", "--name-marker", "6=right")
-    write("job.txt", "*INCLUDE, INPUT=mesh.inp\n" + STEEL.format(elset="steel") + "*BOUNDARY\n" +
+    thickness = "1.\n" if len(strains) == 2 else ""
+    write("job.txt", "*INCLUDE, INPUT=mesh.inp\n" + STEEL.format(elset="steel") + thickness +
+          "*BOUNDARY\n" +
           boundary + "*STEP\n*STATIC\n*DLOAD\n" + load +
           "*NODE PRINT, NSET=Nall\nU\n*END STEP\n")
     nodes, moved = nodes_of("mesh.inp"), displacements("job")
@@ -238,8 +240,13 @@ def bend(judge, mesher):
 def solve_by_calculix(judge, mesher):
     strain = 210 / 210000
     for order in ("1", "2"):
-        pull(judge, mesher, "cube.poly", order, "left, 1, 1\nmarker_3, 2, 2\nmarker_1, 3, 3\n",
-             "right, P, -210\n", (strain, -.3 * strain, -.3 * strain))
+        held = "left, 1, 1\nmarker_3, 2, 2\nmarker_1, 3, 3\n"
+        pull(judge, mesher, "cube.poly", order, held, "right, P, -210\n",
+             (strain, -.3 * strain, -.3 * strain))
+        pull(judge, mesher, "cube.poly", order, held,
+             "right, P, 210\nmarker_2, P, 210\nmarker_4, P, 210\n", 3 * (-.4 * strain,))
+        pull(judge, mesher, "plate.poly", order, "left, 1, 1\nmarker_1, 2, 2\n",
+             "right, P, -210\n", (strain, -.3 * strain))
     bend(judge, mesher)
 
 
@@ -310,6 +317,8 @@ def main():
     os.makedirs(folder, exist_ok=True)
     os.chdir(folder)
     write("square.poly", SQUARE)
+    write("plate.poly", "4 2 0 0\n1 0 0\n2 2 0\n3 2 1\n4 0 1\n4 1\n1 1 2 1\n2 2 3 6\n3 3 4 2\n"
+          "4 4 1 5\n0\n1\n1 1 .5 3\n")
     write("cube.poly", block(1, (1, 2, 3, 4, 5, 6)))
     write("beam.poly", block(10, (1, 1, 1, 1, 5, 6)))
     judge, missing = Judge(), []
