@@ -260,10 +260,30 @@ void add_mesh_options(CLI::App& command, MeshArguments& args) {
       .add_option(
           "-o", args.outputs,
           "Output: .node (with .ele, in space also .face, and .edge for segments and polygons),\n"
-          ".vtu, .vtk, .msh, .mesh, .off, .obj or .svg; in space .off, .obj and .stl hold the\n"
+          ".vtu, .vtk, .msh, .inp, .su2, .mesh, .off, .obj or .svg; in space .off, .obj and .stl "
+          "hold the\n"
           "boundary; may be repeated")
       ->type_name("OUT")
       ->allow_extra_args(false);
+  command
+      .add_option("--order", args.order,
+                  "2: second order, with nodes at the midpoints of edges, which stay straight, in\n"
+                  ".msh, .vtu, .vtk, .inp and .node")
+      ->check(CLI::IsMember({"1", "2"}))
+      ->capture_default_str();
+  command.add_option("--msh-version", args.msh_version, "The version of .msh outputs: 4.1 or 2.2")
+      ->check(CLI::IsMember({"4.1", "2.2"}))
+      ->capture_default_str();
+  const auto add_names = [&](const char* option, std::vector<std::string>& names,
+                             const char* help) {
+    command.add_option(option, names, help)->type_name("N=NAME")->allow_extra_args(false);
+  };
+  add_names("--name-marker", args.marker_names,
+            "In .msh, .inp and .su2: the name of the lines (in space polygons) of marker N, as\n"
+            "7=inlet; without one marker_7. May be repeated");
+  add_names("--name-line", args.line_names, "In space: of the lines of marker N, else line_N");
+  add_names("--name-region", args.region_names,
+            "Of the regions of attribute N, as 3=rock, else region_3");
   command.add_flag(
       "--repair", args.repair,
       "Repair INPUT: lines (in space also polygons) that cross or touch get common points\n"
@@ -374,12 +394,63 @@ Error with_domain_hint(const Error& error) {
 template Error with_domain_hint<2>(const Error&);
 template Error with_domain_hint<3>(const Error&);
 
+namespace {
+
+// N=NAME: calls add(N, NAME).
+template <class Add>
+void read_names(const std::vector<std::string>& texts, const char* option, Add&& add) {
+  for (const std::string& text : texts) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos) {
+      throw Error(ErrorCode::bad_option,
+                  std::string(option) + " '" + text + "': expected NUMBER=NAME");
+    }
+    add(text.substr(0, equals), text.substr(equals + 1));
+  }
+}
+
+std::int64_t marker_number(const char* option, const std::string& text) {
+  std::int64_t number = 0;
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, number);
+  if (result.ec == std::errc{} && result.ptr == end) return number;
+  throw Error(ErrorCode::bad_option, std::string(option) + " '" + text + "': not a whole number");
+}
+
+}  // namespace
+
+mesher::GroupNames names_of(const MeshArguments& args, int dimension) {
+  mesher::GroupNames names;
+  if (dimension == 2 && !args.line_names.empty()) {
+    throw Error(ErrorCode::bad_option,
+                "--name-line is for space: in the plane --name-marker names lines", {args.input});
+  }
+  read_names(args.marker_names, "--name-marker", [&](const std::string& n, std::string name) {
+    names.facets[marker_number("--name-marker", n)] = std::move(name);
+  });
+  read_names(args.line_names, "--name-line", [&](const std::string& n, std::string name) {
+    names.lines[marker_number("--name-line", n)] = std::move(name);
+  });
+  read_names(args.region_names, "--name-region", [&](const std::string& n, std::string name) {
+    names.regions[option_number("--name-region", n)] = std::move(name);
+  });
+  mesher::require_names(names);
+  return names;
+}
+
 template <int D>
 void open_outputs(const MeshArguments& args, const Input<D>& input, Outputs<D>& outputs) {
   protect_inputs(args, input, outputs);
+  mesher::GroupNames names = input.graph().names;
+  names.add(names_of(args, D));
+  mesher::require_names(names);
+  outputs.set_names(std::move(names));
+  mesher::WriteOptions options;
+  if (args.order == "2") options.order = 2;
+  if (args.msh_version == "2.2") options.msh = mesher::MshVersion::v2_2;
   const auto content =
       input.has_features() ? mesher::MeshFiles::features : mesher::MeshFiles::plain;
-  for (const auto& path : args.outputs) outputs.open_mesh(path, content);
+  for (const auto& path : args.outputs) outputs.open_mesh(path, content, options);
 }
 template void open_outputs(const MeshArguments&, const Input<2>&, Outputs<2>&);
 template void open_outputs(const MeshArguments&, const Input<3>&, Outputs<3>&);

@@ -35,6 +35,8 @@ struct MeshArguments {
   bool no_flat = false;            // in space
   std::string algorithm = "auto";  // of `mesh` alone
   std::string stats;
+  std::string order = "1", msh_version = "4.1";
+  std::vector<std::string> marker_names, line_names, region_names;  // NUMBER=NAME
   bool quiet = false;
 };
 
@@ -95,8 +97,11 @@ void protect_inputs(const MeshArguments& args, const auto& input, Files& files) 
   if (!args.sizes.empty()) files.protect(args.sizes);
 }
 
+/// The names that are given. Throws: Error(bad_option), also for names that no group can have.
+[[nodiscard]] mesher::GroupNames names_of(const MeshArguments& args, int dimension);
+
 /// Opens the mesh outputs: those of `.node` with all files, if INPUT is of a format that has lines,
-/// or polygons that are meshed.
+/// or polygons that are meshed. Groups have the names of INPUT and those given.
 /// Throws: Error (unknown_format, cannot_write, bad_option).
 template <int D>
 void open_outputs(const MeshArguments& args, const Input<D>& input, Outputs<D>& outputs);

@@ -166,6 +166,7 @@ void add_mesh(CLI::App& app) {
       "  mesher mesh pump.poly -o pump.vtu -o pump.svg\n"
       "  mesher mesh pump.poly --max-volume 1e-4 -o pump.vtu\n"
       "  mesher mesh part.stl --surface -o part.msh\n"
+      "  mesher mesh part.poly --name-marker 7=inlet --order 2 -o part.inp\n"
       "  mesher mesh scan.ply --algorithm svr -o scan.vtu\n"
       "  mesher mesh lake.poly --algorithm refine -o lake.vtu\n"
       "  mesher mesh cities.csv --domain -180 -90 180 90 --rho 2 --static -o cities.vtu");

@@ -21,13 +21,15 @@ void CommandFiles::commit() {
 // --- Meshes ----------------------------------------------------------------------------------
 
 template <int D>
-void Outputs<D>::open_mesh(const std::string& path, mesher::MeshFiles content) {
+void Outputs<D>::open_mesh(const std::string& path, mesher::MeshFiles content,
+                           const mesher::WriteOptions& options) {
   if (mesher::format_of(path) == ".svg") {
     pictures_.push_back(&open(path));
     return;
   }
-  writers_.push_back(open_among(
-      [&](mesher::OutputFiles& files) { return mesher::open_mesh<D>(files, path, content); }));
+  writers_.push_back(open_among([&](mesher::OutputFiles& files) {
+    return mesher::open_mesh<D>(files, path, content, options);
+  }));
 }
 
 // In the plane a domain has a colour, whether or not it has regions.
@@ -35,7 +37,13 @@ template <int D>
 void Outputs<D>::write(const mesher::DomainMesh<D>& made, const Simplices& coloured) {
   require_uninterrupted();
   const mesher::MeshData<D>& mesh = made.mesh;
-  for (const auto& writer : writers_) writer(mesh, mesh.features);
+  if (mesh.features.names == names_) {
+    for (const auto& writer : writers_) writer(mesh, mesh.features);
+  } else {
+    mesher::MeshFeatures named = mesh.features;
+    named.names = names_;
+    for (const auto& writer : writers_) writer(mesh, named);
+  }
   if (pictures_.empty()) return;
   mesher::SvgView<D> view = mesher::svg_view(mesh);
   view.coloured = coloured;

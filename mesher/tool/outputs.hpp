@@ -4,6 +4,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cancel.hpp"
@@ -49,7 +50,10 @@ template <int D>
 class Outputs : public CommandFiles {
  public:
   /// Opens a mesh output, by extension. Throws: Error (unknown_format, cannot_write, bad_option).
-  void open_mesh(const std::string& path, mesher::MeshFiles content = mesher::MeshFiles::plain);
+  void open_mesh(const std::string& path, mesher::MeshFiles content = mesher::MeshFiles::plain,
+                 const mesher::WriteOptions& options = {});
+  /// The names of groups in what is written.
+  void set_names(mesher::GroupNames names) { names_ = std::move(names); }
 
   /// Writes what is kept to all mesh outputs; `coloured`: simplices that pictures show as changed.
   /// Throws: Error (cannot_write, cancelled).
@@ -59,6 +63,7 @@ class Outputs : public CommandFiles {
  private:
   std::vector<mesher::MeshWriter<D>> writers_;
   std::vector<mesher::TextFile*> pictures_;
+  mesher::GroupNames names_;
 };
 
 }  // namespace tool

@@ -327,8 +327,50 @@ void warn_of_no_mesh(const Standing& input, const char* features) {
 
 }  // namespace
 
+namespace {
+
+// Names that are given to what the mesh does not have.
+template <int D>
+void print_useless_names(const MeshArguments& args, const mesher::MeshFeatures& features) {
+  const auto print = [&](const char* option, const std::string& text) {
+    std::fprintf(stderr, "%s: note: %s %s is not used: the mesh has nothing of that number\n",
+                 args.source.c_str(), option, text.c_str());
+  };
+  // Of one option, as it was given: is_used(number of names_of).
+  const auto look_at = [&](const char* option, const std::vector<std::string>& texts,
+                           const auto& names, const auto& is_used) {
+    for (const auto& [number, name] : names) {
+      if (is_used(number)) continue;
+      for (const std::string& text : texts) {
+        if (text.substr(text.find('=') + 1) == name) print(option, text);
+      }
+    }
+  };
+  const auto is_marker_of = [](const auto& parts) {
+    return [&parts](std::int64_t marker) {
+      return std::any_of(parts.begin(), parts.end(),
+                         [&](const auto& part) { return part.marker == marker; });
+    };
+  };
+  const auto is_region = [&](double region) {
+    const auto& all = features.regions;
+    return all.empty() ? region == 0 : std::find(all.begin(), all.end(), region) != all.end();
+  };
+  const mesher::GroupNames names = names_of(args, D);
+  if constexpr (D == 2) {
+    look_at("--name-marker", args.marker_names, names.facets, is_marker_of(features.edges));
+  } else {
+    look_at("--name-marker", args.marker_names, names.facets, is_marker_of(features.faces));
+    look_at("--name-line", args.line_names, names.lines, is_marker_of(features.edges));
+  }
+  look_at("--name-region", args.region_names, names.regions, is_region);
+}
+
+}  // namespace
+
 void print_remarks(const MeshArguments& args, const Input<2>& input, const Kept<2>& mesh) {
   print_notes(input.notes());
+  print_useless_names<2>(args, mesh.mesh.features);
   if (args.region_areas && !input.has_region_limits()) {
     std::fprintf(stderr, "%s: note: --region-areas is not used: no region has a largest area\n",
                  input.path().c_str());
@@ -342,6 +384,7 @@ void print_remarks(const MeshArguments& args, const Input<2>& input, const Kept<
 
 void print_remarks(const MeshArguments& args, const Input<3>& input, const Kept<3>& mesh) {
   print_notes(input.notes());
+  print_useless_names<3>(args, mesh.mesh.features);
   if (args.region_areas && !input.has_region_limits()) {
     std::fprintf(stderr, "%s: note: --region-volumes is not used: no region has a largest volume\n",
                  input.path().c_str());

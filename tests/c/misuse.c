@@ -100,8 +100,9 @@ static int32_t small(int32_t n) {
 }
 static int32_t dimension(void) { return 2 + small(2); }
 static const char* path(void) {
-  static const char* names[] = {"x.poly", "x.node", "x.vtu",  "x.msh", "x.smesh",  "x.stl",
-                                "x.off",  "x.svg",  "x.none", "",      "no/x.vtu", "x.geojson"};
+  static const char* names[] = {"x.poly",   "x.node",    "x.vtu", "x.msh",  "x.smesh",
+                                "x.stl",    "x.off",     "x.svg", "x.none", "",
+                                "no/x.vtu", "x.geojson", "x.inp", "x.su2"};
   static char all[512];
   if (once_in(30)) return NULL;
   snprintf(all, sizeof all, "%s/%s", folder, names[below(sizeof names / sizeof *names)]);
@@ -131,6 +132,39 @@ static lm_control* control(void) {
   all->timeout = once_in(10) ? number() : 2;
   all->stop = once_in(8) ? handle(STOP) : 0;
   return all;
+}
+static double seen;
+static lm_status write_as(void) {
+  WITH_ROOM(lm_write_options, all);
+  static const char* texts[] = {"inlet", "a b", "", "wall", "marker_1", "\x80"};
+  static lm_name names[128]; /* two, and room */
+  int i;
+  memset(&all_room, 0, sizeof all_room);
+  memset(names, 0, sizeof names);
+  all->size = size(sizeof *all);
+  all->msh_version = once_in(9) ? small(50) : once_in(2) ? 22 : 41;
+  all->only_these = small(2);
+  all->names_count = below(3);
+  all->names = once_in(20) ? NULL : names;
+  for (i = 0; i < 2; ++i) {
+    names[i].size = size(sizeof names[i]);
+    names[i].kind = small(4);
+    names[i].marker = id();
+    names[i].region = once_in(20) ? number() : small(4);
+    names[i].name = once_in(30) ? NULL : texts[below(sizeof texts / sizeof *texts)];
+  }
+  return lm_mesh_write_as(handle(MESH), path(), once_in(20) ? NULL : all);
+}
+static lm_status look_at_names(void) {
+  WITH_ROOM(lm_name, name);
+  size_t n = 0;
+  lm_status status = lm_mesh_name_count(handle(MESH), once_in(30) ? NULL : &n);
+  if (status != LM_OK) return status;
+  memset(&name_room, 0, sizeof name_room);
+  name->size = size(sizeof *name);
+  status = lm_mesh_name_get(handle(MESH), below(4), name);
+  if (status == LM_OK && name->size >= sizeof *name) seen += strlen(name->name);
+  return status;
 }
 static lm_options* options(void) {
   WITH_ROOM(lm_options, all);
@@ -196,7 +230,6 @@ static double read_all(const lm_array* a) {
   return sum;
 }
 
-static double seen;
 static lm_status call(void) {
   WITH_ROOM(lm_array, array);
   int64_t first;
@@ -263,7 +296,16 @@ static lm_status call(void) {
       if (status == LM_OK && array->size >= sizeof *array) seen += read_all(array);
       return status;
     case 28:
-      return lm_mesh_write(handle(MESH), path());
+      switch (below(4)) {
+        case 0:
+          return lm_mesh_write(handle(MESH), path());
+        case 1:
+          return write_as();
+        case 2:
+          return look_at_names();
+        default:
+          return lm_mesh_second_order(handle(MESH), place(MESH));
+      }
     case 29:
       return lm_mesh_read(path(), small(5), place(MESH));
     case 30: {

@@ -95,7 +95,7 @@ def compare_msh(check, mesh, truth):
         check.cells("triangles", found, [t for t, _ in truth.triangles], ordered=False)
         check.equal("edges", truth.edges, [])
         return
-    names = {(int(dim), int(number)): float(name.split()[1])
+    names = {(int(dim), int(number)): float(name.split("_")[1])
              for name, (number, dim) in mesh.field_data.items()}
     for kind, dim, what in (("triangle", 2, truth.triangles), ("line", 1, truth.edges)):
         found = [(cell, names[dim, int(number)]) for cell, number in
@@ -138,12 +138,12 @@ def judge_by_gmsh(path, truth, extension):
     found = {1: [], 2: []}
     for dim, tag in gmsh.model.getEntities():
         group = gmsh.model.getPhysicalGroupsForEntity(dim, tag)
-        name = gmsh.model.getPhysicalName(dim, group[0]) if len(group) else "none 0"
+        name = gmsh.model.getPhysicalName(dim, group[0]) if len(group) else "none_0"
         for _, _, nodes in zip(*gmsh.model.mesh.getElements(dim, tag)):
             size = dim + 1
             for i in range(0, len(nodes), size):
                 cell = tuple(number[int(v)] for v in nodes[i:i + size])
-                found[dim].append((cell, float(name.split()[1]) if extension == ".msh" else 0.0))
+                found[dim].append((cell, float(name.split("_")[1]) if extension == ".msh" else 0.0))
     gmsh.finalize()
     for dim, what in ((2, truth.triangles), (1, truth.edges)):
         expected = [(c, float(v) if extension == ".msh" else 0.0) for c, v in what]

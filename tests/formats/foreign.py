@@ -21,8 +21,9 @@ MESHIO_WRITES = [("zlib", ".vtu", "vtu", {"compression": "zlib"}),
                  ("binary42", ".vtk", "vtk42", {"binary": True}),
                  ("binary51", ".vtk", "vtk51", {"binary": True}),
                  ("medit", ".mesh", "medit", {"float_fmt": ".17g"})]
-# How gmsh writes: binary or not, an extension.
-GMSH_WRITES = ((0, ".msh"), (0, ".mesh"), (0, ".vtk"), (1, ".msh"), (1, ".vtk"))
+# How gmsh writes: binary or not, an extension, the version of .msh.
+GMSH_WRITES = ((0, ".msh", 4.1), (0, ".mesh", 4.1), (0, ".vtk", 4.1), (1, ".msh", 4.1),
+               (1, ".vtk", 4.1), (0, ".msh", 2.2), (1, ".msh", 2.2))
 
 
 def bits(number):
@@ -42,12 +43,12 @@ def files_of_meshio(stem, ways):
 
 def files_of_gmsh(stem):
     """STEM.msh in files that gmsh writes; yields their paths and whether they are binary."""
-    for binary, extension in GMSH_WRITES:
-        path = f"{stem}.gmsh{binary}{extension}"
+    for binary, extension, version in GMSH_WRITES:
+        path = f"{stem}.gmsh{binary}_{version}{extension}"
         gmsh.initialize()
         gmsh.option.setNumber("General.Verbosity", 0)
-        gmsh.option.setNumber("Mesh.MshFileVersion", 4.1)
-        gmsh.option.setNumber("Mesh.SaveAll", 1)
+        gmsh.option.setNumber("Mesh.MshFileVersion", version)
+        gmsh.option.setNumber("Mesh.SaveAll", version > 4)  # before, that drops the groups
         gmsh.option.setNumber("Mesh.Binary", binary)
         gmsh.open(stem + ".msh")
         gmsh.write(path)

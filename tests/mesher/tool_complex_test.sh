@@ -117,8 +117,8 @@ sed 's/^0$/1\n1 .5 .5 .5/; s/^2$/1/; /^2 .5 .5 .5 7/d' two.poly >hollow.poly
 expect 0 'regions               2, holes 0' mesh two.poly -o two.vtu -o two.msh -o two.node
 expect 0 'regions     ok      2 regions' check two.vtu --input two.poly --rho 2
 expect 0 'regions     ok      2 regions' check two.node --input two.poly --rho 2
-has two.msh '^3 1 "region 2.5"$'
-has two.msh '^2 31 "marker 31"$'
+has two.msh '^3 1 "region_2.5"$'
+has two.msh '^2 31 "marker_31"$'
 has two.node '^1 0 0 0 2 1 5$'
 for marker in 21 22 23 24 25 26 31; do has two.face " $marker [0-9]+$"; done
 expect 0 'regions               1, holes 1' mesh hollow.poly -o hollow.vtu -o hollow.stl -o hollow.mesh \

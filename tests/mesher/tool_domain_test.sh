@@ -67,8 +67,8 @@ has lake.1.edge '^[0-9]+ [0-9]+ [0-9]+ 7 11$'
 has lake.1.edge '^[0-9]+ [0-9]+ [0-9]+ 1 3$'
 has lake.1.node '^[0-9]+ 6 0 2 2 5$'
 has lake.1.node '^[0-9]+ 8 8 2 4 1$'
-has lake.1.msh '"region 20"'
-has lake.1.msh '"marker 7"'
+has lake.1.msh '"region_20"'
+has lake.1.msh '"marker_7"'
 has lake.1.svg '#fde3cf'
 python3 - <<'END' || fail "lake.json: $(cat lake.json)"
 import json

@@ -105,6 +105,38 @@ python3 -m json.tool piped.json >/dev/null || fail "--stats -: $(head -c 300 pip
 has said.txt 'error\[cannot_write\]: standard output'
 [[ -z $(ls -A out) ]] || fail "--stats - to a full disk leaves: $(ls -A out)"
 
+echo "== names, versions of .msh, second order"
+printf '%s\n' '4 2 0 0' '1 0 0' '2 4 0' '3 4 4' '4 0 4' '4 1' '1 1 2 1' '2 2 3 7' '3 3 4 1' '4 4 1 8' 0 1 \
+  '1 1 1 3' >named.poly
+expect 0 'named.poly: note: --name-marker 9=x is not used: the mesh has nothing of that number' mesh \
+  named.poly --name-marker 7=inlet --name-marker 9=x --name-region 3=rock -o named.msh -o named.inp \
+  -o named.su2 -o named.vtu
+for line in '4.1 0 8' '1 7 "inlet"' '1 8 "marker_8"' '2 3 "rock"'; do has named.msh "^$line$"; done
+has named.inp '^\*SURFACE, NAME=inlet, TYPE=ELEMENT$'
+has named.su2 '^MARKER_TAG= inlet$'
+expect 0 'markers     ok' check named.msh --input named.poly
+expect 0 '' mesh named.poly --quiet --order 2 --msh-version 2.2 -o second.msh -o second.inp \
+  -o second.vtu -o second.node -o second.svg
+has second.msh '^2.2 0 8$'
+has second.inp '^\*ELEMENT, TYPE=CPS6, ELSET=region_3$'
+for format in msh vtu node; do
+  expect 0 'of second order are not used' check "second.$format" --input named.poly --rho 1.4142
+done
+printf '+point 9 2 2\n' >named.txt
+expect 0 '' edit named.poly --script named.txt --quiet --name-marker 7=inlet -o edited.msh
+has edited.msh '^1 7 "inlet"$'
+refuse 2 'out/x.su2: error[bad_option]: .su2 has no meshes of second order' mesh named.poly --order 2 \
+  -o out/x.su2
+refuse 2 '--order' mesh named.poly --order 3 -o out/x.msh
+refuse 2 '--msh-version' mesh named.poly --msh-version 3 -o out/x.msh
+refuse 2 "the name 'a b' has a blank" mesh named.poly --name-marker '7=a b' -o out/x.msh
+refuse 2 "the name 'a' is given to two groups" mesh named.poly --name-marker 7=a --name-region 3=a \
+  -o out/x.msh
+refuse 2 "--name-marker 'inlet': expected NUMBER=NAME" mesh named.poly --name-marker inlet -o out/x.msh
+refuse 2 "--name-marker 'x': not a whole number" mesh named.poly --name-marker x=7 -o out/x.msh
+refuse 2 '--name-line is for space' mesh named.poly --name-line 7=x -o out/x.msh
+[[ -z $(ls -A out) ]] || fail "bad names leave: $(ls -A out)"
+
 echo "== formats and order of input give the same bytes"
 tail -n +2 uniform.node | sed 's/^[0-9]* //' >uniform.xyz
 (echo 'name,Y,X' && awk '{ print "p," $2 "," $1 }' uniform.xyz) >uniform.csv

@@ -93,6 +93,9 @@ class Examples(unittest.TestCase):
         mean = [float(text.split("mean temperature ")[1].split(",")[0]) for text in (follows, anew)]
         self.assertAlmostEqual(mean[0], mean[1], delta=.01)
 
+    def test_sides_of_a_periodic_cell_agree(self):
+        self.assertIn("after 2 rounds", run("periodic_cell.py"))
+
     def test_a_shape_is_optimised(self):
         self.assertIn("conductance", run("optimise_shape.py", "16"))
 

@@ -222,6 +222,85 @@ class Inputs(unittest.TestCase):
         self.assertEqual(g.regions.tolist(), [[.1, .1, .1, 2, .5]])
         self.assertEqual(g.holes.tolist(), [[.9, .9, .9]])
 
+    def test_names_go_to_files_and_come_from_them(self):
+        m = lm.mesh(SQUARE, polylines=RING, polyline_markers=[7], regions=[(.5, .5, 3)])
+        self.assertIs(m.name(facets={"inlet": 7}, cells={"rock": 3}), m)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "m.msh")
+            for version in ("4.1", "2.2"):
+                m.write(path, version=version)
+                with open(path) as file:
+                    text = file.read()
+                self.assertIn(f"\n{version} 0 8\n", text)
+                self.assertIn('1 7 "inlet"', text)
+                self.assertIn('2 3 "rock"', text)
+                again = lm.Mesh.read(path)
+                self.assertEqual(again.names,
+                                 {"facets": {"inlet": 7}, "edges": {}, "cells": {"rock": 3}})
+                self.assertEqual(len(again.facets_named("inlet")), len(m.facets))
+            again.names["facets"] = {"outlet": 7, "rock": 8}
+            again.names["cells"] = {}
+            again.write(path)
+            self.assertEqual(lm.Mesh.read(path).names["facets"], {"outlet": 7})
+            for wrong in ("a b", "", "marker_1", "rock"):
+                with self.assertRaises(lm.Error) as caught:
+                    lm.Mesh.read(path).name(facets={wrong: 7}, cells={"rock": 3}).write(path)
+                self.assertEqual(caught.exception.code, "bad_option")
+            self.assertRaises(ValueError, m.write, path, version="3")
+            self.assertRaises(ValueError, m.write, path, version=2.2)
+            self.assertRaises(TypeError, m.name(facets={1: 7}).write, path)
+            stl = os.path.join(folder, "two.stl")
+            with open(stl, "w") as file:
+                for name, faces in (("floor", SIDES[:1]), ("rest", SIDES[1:])):
+                    file.write(f"solid {name}\n")
+                    for a, b, c, d in faces:
+                        for t in ((a, b, c), (a, c, d)):
+                            file.write("facet normal 0 0 0\nouter loop\n" + "".join(
+                                "vertex {} {} {}\n".format(*CUBE[i]) for i in t) +
+                                "endloop\nendfacet\n")
+                    file.write("endsolid\n")
+            solid = lm.mesh(stl)
+            self.assertEqual(solid.names["facets"], {"floor": 1, "rest": 2})
+            self.assertEqual(len(set(map(tuple, solid.facets_named("floor")))),
+                             int((solid.facet_markers == 1).sum()))
+
+    def test_second_order(self):
+        plane = dict(polylines=RING, polyline_markers=[7], regions=[(.5, .5, 3)], max_area=.1)
+        space = dict(polygons=SIDES, polygon_markers=range(1, 7), max_volume=.05)
+        pairs = {6: [(0, 1), (1, 2), (2, 0)], 3: [(0, 1)],
+                 10: [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)]}
+        for points, options in ((SQUARE, plane), (CUBE, space), (SQUARE, {}), (CUBE, {})):
+            first, m = lm.mesh(points, **options), lm.mesh(points, order=2, **options)
+            n = len(first.points)
+            self.assertEqual((first.order, m.order), (1, 2))
+            np.testing.assert_array_equal(m.points[:n], first.points)
+            corners = m.dimension + 1
+            np.testing.assert_array_equal(m.cells[:, :corners], first.cells)
+            np.testing.assert_array_equal(m.facets[:, :corners - 1], first.facets)
+            np.testing.assert_array_equal(m.neighbors, first.neighbors)
+            np.testing.assert_array_equal(m.quality(), first.quality())
+            np.testing.assert_array_equal(m.facet_markers, first.facet_markers)
+            np.testing.assert_array_equal(m.point_ids[:n], first.point_ids)
+            self.assertEqual(len(np.unique(m.cells)), len(m.points))
+            for array in (m.point_kinds, m.point_markers, m.point_ids):
+                self.assertEqual(len(array), len(m.points))
+            for rows in (m.cells, m.facets):
+                both = pairs[rows.shape[1]]
+                for k, (a, b) in enumerate(both, rows.shape[1] - len(both)):
+                    np.testing.assert_array_equal(
+                        m.points[rows[:, k]],
+                        (m.points[rows[:, a]] + m.points[rows[:, b]]) / 2)
+            self.assertTrue(all(f.holds for f in m.check()))
+            with tempfile.TemporaryDirectory() as folder:
+                path = os.path.join(folder, "m.vtu")
+                m.write(path)
+                np.testing.assert_array_equal(lm.Mesh.read(path).points, first.points)
+                with self.assertRaises(lm.Error) as caught:
+                    m.write(os.path.join(folder, "m.su2"))
+                self.assertEqual(caught.exception.code, "bad_option")
+            self.assertEqual(m.second_order().cells.shape, m.cells.shape)
+        self.assertRaises(ValueError, lm.mesh, SQUARE, order=3)
+
     def test_conversions_ask_for_their_package_only_when_called(self):
         m = lm.mesh(SQUARE, polylines=RING, regions=[(.5, .5, 3)]).name(cells={"rock": 3})
         try:

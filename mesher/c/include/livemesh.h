@@ -412,16 +412,54 @@ typedef struct lm_mesh_info {
   int32_t algorithm; /* that made it; LM_AUTOMATIC: read from a file */
   uint64_t points, cells;
   int32_t keeps_all; /* whether nothing was enclosed, or the whole box was requested */
-  int32_t reserved;
+  int32_t order;     /* 1, or 2: from lm_mesh_second_order() */
 } lm_mesh_info;
 
 LM_API lm_status lm_mesh_describe(lm_handle mesh, lm_mesh_info* info);
 LM_API lm_status lm_mesh_array(lm_handle mesh, int32_t field, lm_array* array);
 /* One F64 for each cell. measure: lm_measure. */
 LM_API lm_status lm_mesh_quality(lm_handle mesh, int32_t measure, lm_array* array);
-/* Writes .node (with .ele and others beside it), .vtu, .vtk, .msh, .mesh, .off, .obj, .svg, in
- * space also .stl: whole, or not at all. */
+/* Writes .node (with .ele and others beside it), .vtu, .vtk, .msh, .inp, .su2, .mesh, .off, .obj,
+ * .svg, in space also .stl: whole, or not at all. */
 LM_API lm_status lm_mesh_write(lm_handle mesh, const char* path);
+
+typedef enum lm_name_kind {
+  LM_NAME_FACETS = 0, /* of a marker of facets */
+  LM_NAME_EDGES = 1,  /* in space: of a marker of edges */
+  LM_NAME_CELLS = 2   /* of a region */
+} lm_name_kind;
+
+/* The name of a group in .msh, .inp and .su2: 1 to 80 bytes without blanks and quotes
+ * (mesher/names.hpp). */
+typedef struct lm_name {
+  size_t size;
+  int32_t kind; /* lm_name_kind */
+  int32_t reserved;
+  int64_t marker; /* of facets or edges */
+  double region;  /* of cells: the attribute */
+  const char* name;
+} lm_name;
+
+typedef struct lm_write_options {
+  size_t size;
+  int32_t msh_version; /* of .msh: 41, or 22; 0: 41 */
+  int32_t only_these;  /* whether the names that the mesh has itself are left out */
+  size_t names_count;  /* names that count before those that the mesh has */
+  const lm_name* names;
+} lm_write_options;
+
+/* As lm_mesh_write(); a mesh of second order also so. options: may be NULL. */
+LM_API lm_status lm_mesh_write_as(lm_handle mesh, const char* path,
+                                  const lm_write_options* options);
+/* The names that a mesh has from its graph's file, or its own: those of facets, edges, cells. */
+LM_API lm_status lm_mesh_name_count(lm_handle mesh, size_t* count);
+LM_API lm_status lm_mesh_name_get(lm_handle mesh, size_t i, lm_name* name);
+
+/* The mesh of second order: its points are those of `mesh`, then the midpoints of edges, which stay
+ * straight. LM_MESH_CELLS has 6 columns (d = 3: 10), LM_MESH_FACETS 3 (6), LM_MESH_EDGES 3:
+ * corners, then midpoints in the order of VTK; all else is as in `mesh`. A mesh of second order
+ * gives its like. */
+LM_API lm_status lm_mesh_second_order(lm_handle mesh, lm_handle* second);
 /* Reads .node or .ele, .vtu, .vtk, .msh, .mesh, .off, .obj. dimension: 2, 3, or 0: that of the
  * file. */
 LM_API lm_status lm_mesh_read(const char* path, int32_t dimension, lm_handle* mesh);

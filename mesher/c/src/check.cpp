@@ -65,7 +65,7 @@ lm_status lm_mesh_check(lm_handle mesh, const lm_check_options* options, lm_hand
     std::optional<Reading<GraphObject>> graph;
     if (given.graph != 0) graph.emplace(given.graph);
     auto all = std::visit(
-        [&](const auto& in) { return findings(in->data, graph ? &**graph : nullptr, given); },
+        [&](const auto& in) { return findings(in->corners(), graph ? &**graph : nullptr, given); },
         object->mesh);
     const std::size_t size = all.size();
     make_object<FindingsObject>(found, std::move(all));

@@ -346,7 +346,7 @@ template <int D>
 lm_handle whole_mesh(const LiveIn<D>& in) {
   auto object = mesh_object<D>(in.mesher.domain_mesh(), in.mesher.input().points);
   object->algorithm = mesher::Algorithm::gap_balls;
-  MeshIn<D>& mesh = *std::get<std::unique_ptr<MeshIn<D>>>(object->mesh);
+  MeshIn<D>& mesh = *std::get<std::shared_ptr<MeshIn<D>>>(object->mesh);
   const mesher::LiveMesh<D> live = in.mesher.live();
   for (const Point<D>& p : mesh.data.vertices) mesh.point_slots.push_back(live.find(p));
   for (const auto& t : mesh.data.simplices) {

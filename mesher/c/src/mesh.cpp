@@ -2,6 +2,8 @@
 #include "mesh.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "cell_quality.hpp"
@@ -196,6 +198,68 @@ lm_handle read(MeshData<D> data) {
   return add_object(std::move(object));
 }
 
+// --- Names and second order ----------------------------------------------------------------------
+
+mesher::GroupNames names_of(const lm_write_options& options) {
+  mesher::GroupNames names;
+  require_array(options.names, options.names_count, "options->names");
+  const auto* bytes = reinterpret_cast<const unsigned char*>(options.names);
+  for (std::size_t i = 0; i < options.names_count; ++i) {
+    // The caller's structs are as far apart as the first says they are large.
+    const auto* user = reinterpret_cast<const lm_name*>(bytes + i * options.names->size);
+    const lm_name name = read_struct(user, "options->names");
+    require_pointer(name.name, "options->names->name");
+    if (name.kind == LM_NAME_FACETS) {
+      names.facets[name.marker] = name.name;
+    } else if (name.kind == LM_NAME_EDGES) {
+      names.lines[name.marker] = name.name;
+    } else if (name.kind == LM_NAME_CELLS && std::isfinite(name.region)) {
+      names.regions[name.region + 0.0] = name.name;
+    } else {
+      throw Failure(LM_BAD_ARGUMENT, "no group has names of kind " + std::to_string(name.kind));
+    }
+  }
+  return names;
+}
+
+mesher::MshVersion msh_version_of(const lm_write_options& options) {
+  if (options.msh_version == 0 || options.msh_version == 41) return mesher::MshVersion::v4_1;
+  if (options.msh_version == 22) return mesher::MshVersion::v2_2;
+  throw Failure(LM_BAD_ARGUMENT,
+                "msh_version is " + std::to_string(options.msh_version) + ", not 41 or 22");
+}
+
+// The i-th of facets, then edges, then cells.
+lm_name name_at(const mesher::GroupNames& names, std::size_t i) {
+  lm_name found{};
+  const auto look_in = [&](const auto& map, std::int32_t kind, auto set) {
+    if (found.name == nullptr && i < map.size()) {
+      const auto at = std::next(map.begin(), static_cast<std::ptrdiff_t>(i));
+      found.kind = kind;
+      found.name = at->second.c_str();
+      set(at->first);
+    }
+    i -= std::min(i, map.size());
+  };
+  const auto set_marker = [&](std::int64_t marker) { found.marker = marker; };
+  look_in(names.facets, LM_NAME_FACETS, set_marker);
+  if (found.name == nullptr) look_in(names.lines, LM_NAME_EDGES, set_marker);
+  if (found.name == nullptr) {
+    look_in(names.regions, LM_NAME_CELLS, [&](double region) { found.region = region; });
+  }
+  if (found.name == nullptr) throw Failure(LM_BAD_ARGUMENT, "there is no such name");
+  return found;
+}
+
+template <int D>
+lm_handle second_order(const MeshObject& object, const std::shared_ptr<MeshIn<D>>& in) {
+  auto made = std::make_shared<MeshObject>(in->order() == 2 ? in : std::make_shared<MeshIn<D>>(in));
+  made->notes = object.notes;
+  made->algorithm = object.algorithm;
+  made->keeps_all = object.keeps_all;
+  return add_object(std::move(made));
+}
+
 // Calls visit(mesh) for the mesh of a handle, of its dimension.
 template <class Visit>
 void look(lm_handle handle, Visit&& visit) {
@@ -206,6 +270,41 @@ void look(lm_handle handle, Visit&& visit) {
 }  // namespace
 
 // --- What is made when it is asked for -----------------------------------------------------------
+
+// What a mesh of second order has more than that of first order.
+template <int D>
+MeshIn<D>::MeshIn(std::shared_ptr<MeshIn> first)
+    : MeshIn(first, mesher::SecondOrder<D>(first->data)) {}
+
+template <int D>
+MeshIn<D>::MeshIn(std::shared_ptr<MeshIn> first, const mesher::SecondOrder<D>& second)
+    : data(with_midpoints(first->data, first->data.features, second)),
+      cell_slots(first->cell_slots),
+      first_(std::move(first)),
+      second_(second) {
+  nodes_.reserve(data.simplices.size());
+  for (const Simplex& t : data.simplices) nodes_.push_back(second.nodes_of(t));
+  if (first_->point_slots.empty()) return;
+  point_slots = first_->point_slots;
+  point_slots.resize(data.vertices.size(), LM_NONE);
+}
+
+// `columns`: corners of each, 2 or 3.
+template <int D>
+FlatFacets MeshIn<D>::with_nodes(const FlatFacets& corners, std::size_t columns) const {
+  FlatFacets all = corners;
+  all.corners.clear();
+  for (std::size_t i = 0; i < corners.corners.size(); i += columns) {
+    const std::uint32_t* const c = corners.corners.data() + i;
+    if (columns == 2) {
+      all.corners.insert(all.corners.end(), {c[0], c[1], second_->between(c[0], c[1])});
+    } else {
+      const auto nodes = second_->nodes_of(mesher::MeshFace{{c[0], c[1], c[2]}, {}, 0});
+      all.corners.insert(all.corners.end(), nodes.begin(), nodes.end());
+    }
+  }
+  return all;
+}
 
 template <int D>
 auto MeshIn<D>::neighbours() -> const std::vector<Simplex>& {
@@ -224,6 +323,7 @@ template <int D>
 const FlatFacets& MeshIn<D>::facets_made() {
   const std::lock_guard lock(making_);
   if (facets_) return *facets_;
+  if (first_ != nullptr) return facets_.emplace(with_nodes(first_->facets_made(), D));
   if constexpr (D == 2) {
     if (!data.features.edges.empty()) return facets_.emplace(flattened(data.features.edges));
   } else {
@@ -236,13 +336,19 @@ template <int D>
 const FlatFacets& MeshIn<D>::edges_made() {
   if (D == 2) return facets_made();
   const std::lock_guard lock(making_);
-  if (!edges_) edges_.emplace(flattened(data.features.edges));
-  return *edges_;
+  if (edges_) return *edges_;
+  if (first_ != nullptr) return edges_.emplace(with_nodes(first_->edges_made(), 2));
+  return edges_.emplace(flattened(data.features.edges));
 }
 
 template <int D>
 const std::vector<Feature>& MeshIn<D>::origins() {
   if (!data.features.origins.empty()) return data.features.origins;
+  if (!origins_ && first_ != nullptr) {
+    const std::lock_guard lock(first_->making_);
+    origins_.emplace(first_->origins());
+    origins_->resize(data.vertices.size());
+  }
   if (!origins_) {
     origins_.emplace(origins_of<D>(data.vertices, std::exchange(points_, {})));
   }
@@ -256,7 +362,7 @@ lm_array MeshIn<D>::array(std::int32_t field) {
     case LM_MESH_POINTS:
       return rows_of(data.vertices);
     case LM_MESH_CELLS:
-      return rows_of(data.simplices);
+      return first_ == nullptr ? rows_of(data.simplices) : rows_of(nodes_);
     case LM_MESH_NEIGHBORS:
       return rows_of(neighbours());
     case LM_MESH_POINT_KINDS:
@@ -277,7 +383,7 @@ lm_array MeshIn<D>::array(std::int32_t field) {
       if (!no_regions_) no_regions_.emplace(data.simplices.size());
       return rows_of(*no_regions_);
     case LM_MESH_FACETS:
-      return rows_of(facets_made().corners, D);
+      return rows_of(facets_made().corners, first_ == nullptr ? D : D * (D + 1) / 2);
     case LM_MESH_FACET_MARKERS:
       return rows_of(facets_made().markers);
     case LM_MESH_FACET_FEATURES:
@@ -285,7 +391,7 @@ lm_array MeshIn<D>::array(std::int32_t field) {
     case LM_MESH_FACET_FEATURE_IDS:
       return rows_of(facets_made().ids);
     case LM_MESH_EDGES:
-      return rows_of(edges_made().corners, 2);
+      return rows_of(edges_made().corners, first_ == nullptr ? 2 : 3);
     case LM_MESH_EDGE_MARKERS:
       return rows_of(edges_made().markers);
     case LM_MESH_EDGE_FEATURES:
@@ -347,6 +453,7 @@ lm_status lm_mesh_describe(lm_handle mesh, lm_mesh_info* info) {
       all.points = in.data.vertices.size();
       all.cells = in.data.simplices.size();
       all.keeps_all = object.keeps_all;
+      all.order = in.order();
       give_struct(all, info);
     });
   });
@@ -369,7 +476,52 @@ lm_status lm_mesh_quality(lm_handle mesh, int32_t measure, lm_array* array) {
 lm_status lm_mesh_write(lm_handle mesh, const char* path) {
   return guarded([&] {
     require_pointer(path, "path");
-    look(mesh, [&](const MeshObject&, auto& in) { mesher::write_mesh(in.data, path); });
+    look(mesh, [&](const MeshObject&, auto& in) {
+      mesher::write_mesh(in.corners(), path, {.order = in.order()});
+    });
+  });
+}
+
+lm_status lm_mesh_write_as(lm_handle mesh, const char* path, const lm_write_options* options) {
+  return guarded([&] {
+    require_pointer(path, "path");
+    const lm_write_options given =
+        options == nullptr ? lm_write_options{} : read_struct(options, "options");
+    const mesher::GroupNames names = names_of(given);
+    const mesher::MshVersion msh = msh_version_of(given);
+    look(mesh, [&](const MeshObject&, auto& in) {
+      auto named = in.corners();
+      if (given.only_these != 0) named.features.names = {};
+      named.features.names.add(names);
+      mesher::write_mesh(named, path, {.order = in.order(), .msh = msh});
+    });
+  });
+}
+
+lm_status lm_mesh_name_count(lm_handle mesh, size_t* count) {
+  return guarded([&] {
+    require_pointer(count, "count");
+    look(mesh, [&](const MeshObject&, auto& in) {
+      const mesher::GroupNames& names = in.corners().features.names;
+      *count = names.facets.size() + names.lines.size() + names.regions.size();
+    });
+  });
+}
+
+lm_status lm_mesh_name_get(lm_handle mesh, size_t i, lm_name* name) {
+  return guarded([&] {
+    require_struct(name, "name");
+    look(mesh, [&](const MeshObject&, auto& in) {
+      give_struct(name_at(in.corners().features.names, i), name);
+    });
+  });
+}
+
+lm_status lm_mesh_second_order(lm_handle mesh, lm_handle* second) {
+  return guarded([&] {
+    require_pointer(second, "second");
+    const Reading<MeshObject> object(mesh);
+    *second = std::visit([&](const auto& in) { return second_order(*object, in); }, object->mesh);
   });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "arrays.hpp"
 #include "handles.hpp"
 #include "mesher/meshing.hpp"
+#include "mesher/second_order.hpp"
 
 namespace lm {
 
@@ -33,6 +35,15 @@ class MeshIn {
   [[nodiscard]] lm_array array(std::int32_t field);
   [[nodiscard]] lm_array quality(std::int32_t measure);
 
+  /// The mesh of second order of `first`, which is of first order.
+  explicit MeshIn(std::shared_ptr<MeshIn> first);
+
+  /// The mesh of first order: this one, or that it was made from.
+  [[nodiscard]] const mesher::MeshData<D>& corners() const {
+    return first_ == nullptr ? data : first_->data;
+  }
+  [[nodiscard]] int order() const noexcept { return first_ == nullptr ? 1 : 2; }
+
   const mesher::MeshData<D> data;
   std::vector<std::uint32_t> point_slots, cell_slots;  // of a live mesh
 
@@ -43,6 +54,13 @@ class MeshIn {
   [[nodiscard]] const FlatFacets& edges_made();
   [[nodiscard]] const std::vector<mesher::Feature>& origins();
 
+  using Nodes = std::array<std::uint32_t, mesher::SecondOrder<D>::kCellNodes>;
+  MeshIn(std::shared_ptr<MeshIn> first, const mesher::SecondOrder<D>& second);
+  [[nodiscard]] FlatFacets with_nodes(const FlatFacets& corners, std::size_t columns) const;
+
+  std::shared_ptr<MeshIn> first_;  // of second order
+  std::optional<mesher::SecondOrder<D>> second_;
+  std::vector<Nodes> nodes_;  // of cells
   std::vector<mesher::GraphPoint<D>> points_;
   std::recursive_mutex making_;
   std::optional<std::vector<Simplex>> neighbours_;
@@ -60,7 +78,10 @@ struct MeshObject final : Object {
 
   [[nodiscard]] const std::vector<std::string>* texts() override { return &notes; }
 
-  std::variant<std::unique_ptr<MeshIn<2>>, std::unique_ptr<MeshIn<3>>> mesh;
+  template <int D>
+  explicit MeshObject(std::shared_ptr<MeshIn<D>> in) : mesh(std::move(in)) {}
+
+  std::variant<std::shared_ptr<MeshIn<2>>, std::shared_ptr<MeshIn<3>>> mesh;
   std::vector<std::string> notes;
   mesher::Algorithm algorithm = mesher::Algorithm::automatic;
   bool keeps_all = false;
@@ -69,7 +90,7 @@ struct MeshObject final : Object {
 template <int D>
 MeshObject::MeshObject(std::in_place_index_t<D - 2>, mesher::MeshData<D> data,
                        std::vector<mesher::GraphPoint<D>> points)
-    : mesh(std::make_unique<MeshIn<D>>(std::move(data), std::move(points))) {}
+    : mesh(std::make_shared<MeshIn<D>>(std::move(data), std::move(points))) {}
 
 /// The object of the enclosed part of a mesh. `points`: as for MeshIn.
 template <int D>

@@ -24,6 +24,7 @@
 #include "mesher/error.hpp"
 #include "mesher/ids.hpp"
 #include "mesher/mesh.hpp"
+#include "mesher/names.hpp"
 
 namespace mesher {
 
@@ -109,6 +110,7 @@ struct Graph : detail::GraphSurfaces<D> {
   std::vector<Segment> segments;
   std::vector<Polyline> polylines;
   std::vector<Seed<D>> seeds;
+  GroupNames names{};  ///< of markers of lines and polygons, and of attributes of regions
   friend bool operator==(const Graph&, const Graph&) = default;
 
   [[nodiscard]] std::vector<Seed<D>> holes() const { return seeds_of(SeedKind::hole); }

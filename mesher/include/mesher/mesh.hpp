@@ -17,6 +17,7 @@
 
 #include "mesher/error.hpp"
 #include "mesher/ids.hpp"
+#include "mesher/names.hpp"
 
 namespace mesher {
 
@@ -212,7 +213,9 @@ struct MeshFeatures {
   std::vector<double> regions;        ///< one per simplex: the attribute of its region, finite
   std::vector<MeshEdge> edges;        ///< ascending by (low, high), without duplicates
   std::vector<MeshFace> faces;        ///< in space; ascending by key(), without duplicates
+  GroupNames names{};                 ///< of markers of edges and faces, and of regions
 
+  /// Whether there are none; names alone are none.
   [[nodiscard]] bool empty() const {
     return origins.empty() && markers.empty() && regions.empty() && edges.empty() && faces.empty();
   }

@@ -84,7 +84,8 @@ struct ReadOptions {
 ///   that shares a piece with the outer ring of another polygon is filled by that polygon and makes
 ///   no hole. An area that several polygons enclose together is kept, without a region. A feature's
 ///   properties `marker` (of its points and lines), `attribute` and `max_area` (of its regions) are
-///   used. Altitudes and other members are noted.
+///   used, and `name`: of the region of a polygon, of the marker of a line. Altitudes and other
+///   members are noted.
 /// - `.obj` (Wavefront): `v x y [z]`, `l i j ...` (1 is the first point, -1 the last so far), `p`.
 ///   z must be the same everywhere. Names, groups and materials are noted; faces are refused.
 /// - `.vtu` (VTK): vertices, lines and polylines of an unstructured grid in one piece: ASCII,
@@ -105,9 +106,14 @@ struct ReadOptions {
 /// - `.smesh` (TetGen): the same, but a facet is one line `count corner... [marker]`.
 /// - `.off` (Geomview), with or without colours or normals; `.obj` (Wavefront); `.ply` (Stanford),
 ///   ASCII or binary, of either byte order; `.stl`, ASCII or binary, where corners with equal
-///   coordinates are one point: the vertices, and each face as a polygon;
+///   coordinates are one point: the vertices, and each face as a polygon. If an ASCII `.stl` has
+///   several solids, or an `.obj` faces in several groups (`g` or `o`), their faces have the
+///   markers 1, 2, ... in their order, with these names;
 /// - `.vtu` and `.vtk` (VTK), as read_mesh reads them: the vertices, and each triangle,
 ///   quadrilateral or polygon as a polygon.
+///
+/// Names that a group cannot have (names.hpp) get '_' for blanks and quotes, or are left out, with
+/// a Note.
 ///
 /// Throws: Error (cannot_read, unknown_format, bad_header, bad_dimension, bad_number, not_finite,
 /// magnitude, wrong_count, truncated, repeated_id, unknown_id, duplicate_point, bad_syntax,
@@ -146,15 +152,18 @@ template <int D = 2>
 ///   space `.face` (faces with a marker or polygon);
 /// - `.vtu` (VTK) as above, and `.vtk` (legacy, ASCII or binary): the cells are triangles and
 ///   lines, or tetrahedra, triangles and lines;
-/// - `.msh` (Gmsh, version 4.1, ASCII or binary): physical groups are regions and markers;
+/// - `.msh` (Gmsh, versions 4.1 and 2.2, ASCII or binary): physical groups are regions and markers,
+///   with their names; a group `marker_N`, `line_N` or `region_N` has the value N, other groups
+///   their numbers;
 /// - `.mesh` (Medit, ASCII): references are markers and regions;
 /// - `.off` (Geomview) and `.obj` (Wavefront): triangles; of .obj also lines.
 ///
 /// Vertices and simplices keep the order of the file; a simplex keeps the order of its corners. An
-/// array of MeshFeatures whose values are all 0 is empty. In the plane a third coordinate must be
-/// the same everywhere (.off: 0). Kinds and origins are known only for files that `write_mesh`
-/// wrote as .node, .vtu or .vtk; otherwise all vertices are steiner. `notes` lists data that is not
-/// used.
+/// array of MeshFeatures whose values are all 0 is empty. Cells of second order (.msh, .vtu, .vtk,
+/// .ele) are read by their corners: the nodes between corners are no vertices, and a Note says so.
+/// In the plane a third coordinate must be the same everywhere (.off: 0). Kinds and origins are
+/// known only for files that `write_mesh` wrote as .node, .vtu or .vtk; otherwise all vertices are
+/// steiner. `notes` lists data that is not used.
 ///
 /// Throws: Error as read, and bad_mesh for a simplex whose corners are not different vertices of
 /// the file, and for an edge or a face given twice. Coordinates may be any finite doubles, and

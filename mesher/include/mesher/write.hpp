@@ -5,7 +5,7 @@
 //
 // Guarantees:
 //   (1) the content of a file is a function of the mesh alone, byte for byte;
-//   (2) coordinates read back bit for bit, from all formats except .svg;
+//   (2) coordinates read back bit for bit, from all formats except .svg and .inp;
 //   (3) an output file appears whole, at the end, or not at all. Each file is written under a
 //       temporary name in its own directory. `commit` closes all of them, checks every error that a
 //       disk can report, and only then renames them to their targets. An existing target is kept
@@ -129,6 +129,20 @@ class MeshWriter {
   Write write_;
 };
 
+/// The version of a `.msh` output.
+enum class MshVersion : std::uint8_t {
+  v4_1,  ///< of Gmsh 4
+  v2_2,  ///< which more programs read, among them GetDP, FreeFEM and gmshToFoam of OpenFOAM
+};
+
+/// How a mesh is written.
+struct WriteOptions {
+  /// 1, or 2: with nodes at the midpoints of edges (second_order.hpp). Of second order are `.msh`,
+  /// `.vtu`, `.vtk`, `.inp` and `.node`; `.svg` shows the same either way; other formats refuse.
+  int order = 1;
+  MshVersion msh = MshVersion::v4_1;
+};
+
 /// The files of a `.node` output.
 enum class MeshFiles : std::uint8_t {
   plain,     ///< .node and .ele
@@ -147,10 +161,18 @@ enum class MeshFiles : std::uint8_t {
 /// - `.vtu` and `.vtk` (VTK, ParaView): ASCII, z = 0; cells are the triangles, then the edges of
 ///   MeshFeatures as lines; point data kind, origin, marker; cell data region, marker, line, and
 ///   has_line (1 if the line is known);
-/// - `.msh` (Gmsh 4.1): ASCII, z = 0; each region and each marker of edges is a physical group,
-///   named `region V` or `marker M`. The number of a group is that value if all values are integers
-///   from 1 to 2^31 - 2, else groups are numbered from 1; the value 0 is numbered last, and is no
-///   group if it is the only value;
+/// - `.msh` (Gmsh, WriteOptions::msh): ASCII, z = 0; each region and each marker of edges is a
+///   physical group with its name (names.hpp). The number of a group is that value if all values
+///   are integers from 1 to 2^31 - 2, else groups are numbered from 1; the value 0 is numbered
+///   last, and is no group if it is the only value and has no name;
+/// - `.inp` (Abaqus, CalculiX): z = 0; elements CPS3, in second order CPS6. Each region is a set of
+///   elements (*ELSET), each marker of edges a set of nodes (*NSET) and a surface (*SURFACE) of
+///   sides of elements, of the element with the lowest number for an edge between two; `Nall` and
+///   `Eall` are all. Numbers have at most 20 characters, as these programs demand, and so may be
+///   rounded. In names, what is no letter, digit, '_', '-' or '.' becomes '_', and a number is
+///   added to a name that is taken, in whatever case of letters;
+/// - `.su2` (SU2): dimension 2; each marker of edges on the boundary is a marker; names as in
+///   `.inp`. Edges between two triangles, and regions, are left out;
 /// - `.mesh` (Medit): dimension 3, z = 0; references are regions, and markers of vertices and of
 ///   edges, numbered in the same way; 0 stays 0;
 /// - `.off` (Geomview): z = 0, triangles alone; `.obj` (Wavefront): z = 0, and the edges as lines;
@@ -168,8 +190,12 @@ enum class MeshFiles : std::uint8_t {
 /// - `.vtu` and `.vtk` (VTK, ParaView): cells are the tetrahedra, then the faces and the edges of
 ///   MeshFeatures; point data kind, origin, marker; cell data region, marker, polygon and line,
 ///   with has_polygon and has_line (1 if known);
-/// - `.msh` (Gmsh 4.1): each region, and each marker of faces and of edges, is a physical group,
-///   named and numbered as in the plane;
+/// - `.msh` (Gmsh): each region, and each marker of faces and of edges, is a physical group, named
+///   and numbered as in the plane;
+/// - `.inp` (Abaqus, CalculiX): elements C3D4, in second order C3D10; sets of elements for regions,
+///   sets of nodes and surfaces for markers of faces as for edges in the plane, and sets of nodes
+///   for markers of edges;
+/// - `.su2` (SU2): dimension 3; markers for those of faces on the boundary;
 /// - `.mesh` (Medit): references are regions, and markers of vertices, faces and edges, as in the
 ///   plane;
 /// - `.off` (Geomview), `.obj` (Wavefront) and `.stl`: only the boundary, as triangles that are
@@ -177,21 +203,23 @@ enum class MeshFiles : std::uint8_t {
 /// - `.svg`: a cutaway picture, see write_svg; its coordinates are rounded.
 ///
 /// All formats are text. `files` must outlive the writer. D is 2 or 3.
-/// Throws: Error (unknown_format, cannot_write, bad_option).
+/// Throws: Error (unknown_format, cannot_write; bad_option, also for an order that the format does
+/// not have). The writer throws Error(bad_option) for names as require_names does.
 template <int D>
 [[nodiscard]] MeshWriter<D> open_mesh(OutputFiles& files, const std::string& path,
-                                      MeshFiles content = MeshFiles::plain);
+                                      MeshFiles content = MeshFiles::plain,
+                                      const WriteOptions& options = {});
 
 /// The extension of a path in lower case, such as ".vtu", which gives the format.
 [[nodiscard]] std::string format_of(const std::string& path);
 
 /// Writes a mesh to `path` (and beside it) as open_mesh describes, whole or not at all. A `.node`
 /// output has MeshFiles::features if the mesh has features.
-/// Throws: Error (unknown_format, cannot_write).
-void write_mesh(const Mesh<2>& mesh, const std::string& path);
-void write_mesh(const Mesh<3>& mesh, const std::string& path);
-void write_mesh(const MeshData<2>& mesh, const std::string& path);
-void write_mesh(const MeshData<3>& mesh, const std::string& path);
+/// Throws: Error (unknown_format, cannot_write, bad_option).
+void write_mesh(const Mesh<2>& mesh, const std::string& path, const WriteOptions& options = {});
+void write_mesh(const Mesh<3>& mesh, const std::string& path, const WriteOptions& options = {});
+void write_mesh(const MeshData<2>& mesh, const std::string& path, const WriteOptions& options = {});
+void write_mesh(const MeshData<3>& mesh, const std::string& path, const WriteOptions& options = {});
 
 /// Writes points as a `.node` file, numbered from 1, without attributes or markers.
 /// `points`: n x D. Throws: Error(cannot_write).

@@ -83,7 +83,17 @@ class Options(Structure):
 class MeshInfo(Structure):
     _fields_ = [("size", c_size_t), ("dimension", c_int32), ("algorithm", c_int32),
                 ("points", c_uint64), ("cells", c_uint64), ("keeps_all", c_int32),
-                ("reserved", c_int32)]
+                ("order", c_int32)]
+
+
+class Name(Structure):
+    _fields_ = [("size", c_size_t), ("kind", c_int32), ("reserved", c_int32),
+                ("marker", c_int64), ("region", c_double), ("name", c_char_p)]
+
+
+class WriteOptions(Structure):
+    _fields_ = [("size", c_size_t), ("msh_version", c_int32), ("only_these", c_int32),
+                ("names_count", c_size_t), ("names", c_void_p)]
 
 
 class CheckOptions(Structure):
@@ -123,7 +133,8 @@ _SIGNATURES = {
     "graph_repair": "hpp", "graph_merge": "hp",
     "sizes_samples": "izppp", "sizes_function": "iSpddp", "sizes_read": "sip",
     "mesh_make": "hppp", "mesh_describe": "hp", "mesh_array": "hip", "mesh_quality": "hip",
-    "mesh_write": "hs", "mesh_read": "sip", "mesh_check": "hppp", "finding_get": "hzp",
+    "mesh_write": "hs", "mesh_write_as": "hsp", "mesh_name_count": "hp", "mesh_name_get": "hzp",
+    "mesh_second_order": "hp", "mesh_read": "sip", "mesh_check": "hppp", "finding_get": "hzp",
     "live_new": "ipp", "live_add_points": "hzpppp", "live_move_points": "hzpp",
     "live_remove_points": "hzp", "live_add_segments": "hzpppp", "live_add_polyline": "hzppqp",
     "live_remove_lines": "hzp", "live_add_polygon": "hppp", "live_remove_polygons": "hzp",
@@ -299,6 +310,16 @@ def path_of(path: Union[str, "os.PathLike[str]"]) -> bytes:
     name = os.fsencode(path)
     if b"\0" in name:  # where it would end to the library
         raise ValueError("the name of a file has a null character")
+    return name
+
+
+def text_of(text: str) -> bytes:
+    """A name of a group. Raises: TypeError, ValueError."""
+    if not isinstance(text, str):
+        raise TypeError(f"a name must be a str, not {type(text).__name__}")
+    name = text.encode()
+    if b"\0" in name:
+        raise ValueError("a name has a null character")
     return name
 
 

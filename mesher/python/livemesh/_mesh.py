@@ -22,6 +22,8 @@ _EXTENTS = ("enclosed", "box")
 _MEASURES = {"area": 0, "volume": 0, "measure": 0, "radius_edge": 1, "min_angle": 2,
              "max_angle": 3, "min_dihedral": 4, "max_dihedral": 5}
 _NONE, _INPUT_POINT = _c.NONE, 1
+_NAMED = ("facets", "edges", "cells")  # lm_name_kind
+_MSH_VERSIONS = {"4.1": 41, "2.2": 22}
 
 
 class Finding(NamedTuple):
@@ -37,6 +39,10 @@ class Mesh:
 
     Its arrays are the library's memory, not copies, and read-only; they stay valid for as long as
     they are referenced, even after the mesh. d is the dimension.
+
+    Of second order (`order` is 2), `points` are followed by the midpoints of edges, which are
+    straight, and `cells`, `facets` and `edges` have midpoints behind their corners, in the order of
+    VTK: m x 6 or m x 10, f x 3 or f x 6, and e x 3.
     """
 
     def __init__(self, handle: Handle) -> None:
@@ -46,17 +52,47 @@ class Mesh:
         self.dimension: int = info.dimension
         self.algorithm: str = _ALGORITHMS[info.algorithm]
         self.encloses: bool = not info.keeps_all
-        self.names: dict[str, dict[str, int]] = {"facets": {}, "cells": {}}
+        self.order: int = info.order
+        self.names: dict[str, dict[str, Any]] = {kind: {} for kind in _NAMED}
+        self._read_names()
 
     @classmethod
     def read(cls, path: Union[str, "os.PathLike[str]"], dimension: int = 0) -> "Mesh":
         """The mesh in a file: .node or .ele, .vtu, .vtk, .msh, .mesh, .off, .obj."""
         return cls(_c.new(c.mesh_read, path_of(path), dimension_of(dimension)))
 
-    def write(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Writes .node (with .ele and others beside it), .vtu, .vtk, .msh (version 4.1), .mesh,
-        .off, .obj, .svg, in space also .stl: whole, or not at all."""
-        check(c.mesh_write(self._handle.value, path_of(path)), self.dimension)
+    def _read_names(self) -> None:
+        count = c_size_t()
+        check(c.mesh_name_count(self._handle.value, byref(count)))
+        name = _c.Name(ctypes.sizeof(_c.Name))
+        for i in range(count.value):
+            check(c.mesh_name_get(self._handle.value, i, byref(name)))
+            kind = _NAMED[name.kind]
+            number = _plain(name.region) if kind == "cells" else name.marker
+            self.names[kind][name.name.decode(errors="replace")] = number
+
+    def write(self, path: Union[str, "os.PathLike[str]"], version: str = "4.1") -> None:
+        """Writes .node (with .ele and others beside it), .vtu, .vtk, .msh, .inp (Abaqus, CalculiX),
+        .su2, .mesh, .off, .obj, .svg, in space also .stl: whole, or not at all. Names of groups go
+        to .msh, .inp and .su2; of several names of a number, the last. A mesh of second order goes
+        to .msh, .inp, .vtu, .vtk and .node. version: of .msh, "4.1" or "2.2"."""
+        if version not in _MSH_VERSIONS:
+            raise ValueError(f"version is {version!r}, not one of {', '.join(_MSH_VERSIONS)}")
+        names = [(kind, {number: name for name, number in self.names[kind_name].items()})
+                 for kind, kind_name in enumerate(_NAMED)]
+        rows = [_c.Name(ctypes.sizeof(_c.Name), kind, 0, 0 if kind == 2 else number,
+                        float(number) if kind == 2 else 0., _c.text_of(name))
+                for kind, by_number in names for number, name in by_number.items()]
+        array = (_c.Name * len(rows))(*rows)
+        options = _c.WriteOptions(ctypes.sizeof(_c.WriteOptions), _MSH_VERSIONS[version], 1,
+                                  len(rows), ctypes.addressof(array))
+        check(c.mesh_write_as(self._handle.value, path_of(path), byref(options)), self.dimension)
+
+    def second_order(self) -> "Mesh":
+        """The mesh with midpoints of edges, with the same names."""
+        made = Mesh(_c.new(c.mesh_second_order, self._handle.value))
+        made.names = {kind: dict(names) for kind, names in self.names.items()}
+        return made
 
     def _array(self, field: int) -> NDArray[Any]:
         return _c.array(c.mesh_array, self._handle, field)
@@ -169,11 +205,14 @@ class Mesh:
     # --- Names, and the formats of others --------------------------------------------------------
 
     def name(self, facets: Optional[Mapping[str, int]] = None,
-             cells: Optional[Mapping[str, int]] = None) -> "Mesh":
-        """Names facets by their markers and cells by their regions, for to_meshio, to_pyvista and
-        facets_named, cells_named. Returns the mesh."""
+             cells: Optional[Mapping[str, float]] = None,
+             edges: Optional[Mapping[str, int]] = None) -> "Mesh":
+        """Names facets by their markers, cells by their regions, and in space edges by their
+        markers, for write, to_meshio, facets_named and cells_named. A name has no blanks, and is
+        that of one group. Returns the mesh."""
         self.names["facets"].update({name: int(v) for name, v in (facets or {}).items()})
-        self.names["cells"].update({name: int(v) for name, v in (cells or {}).items()})
+        self.names["edges"].update({name: int(v) for name, v in (edges or {}).items()})
+        self.names["cells"].update({name: _plain(v) for name, v in (cells or {}).items()})
         return self
 
     def facets_named(self, name: str) -> NDArray[np.uint32]:
@@ -190,7 +229,7 @@ class Mesh:
         "gmsh:physical", and names as field data."""
         import meshio  # type: ignore[import]
 
-        kinds = ("triangle", "line") if self.dimension == 2 else ("tetra", "triangle")
+        kinds = _MESHIO[self.dimension, self.order]
         blocks = [(kinds[0], self.cells), (kinds[1], self.facets)]
         regions = self.cell_regions.astype(np.int64)
         markers = np.asarray(self.facet_markers)
@@ -211,7 +250,7 @@ class Mesh:
 
         points = np.zeros((len(self.points), 3))
         points[:, :self.dimension] = self.points
-        kind = 5 if self.dimension == 2 else 10  # VTK_TRIANGLE, VTK_TETRA
+        kind = _VTK[self.dimension, self.order]
         grid = pyvista.UnstructuredGrid({kind: self.cells.astype(np.int64)}, points)
         grid.cell_data["region"] = np.asarray(self.cell_regions)
         grid.point_data["marker"] = np.asarray(self.point_markers)
@@ -227,18 +266,30 @@ class Mesh:
         ax = ax or pyplot.gca()
         ax.set_aspect("equal")
         x, y = self.points.T
+        cells = self.cells[:, :3]  # of second order, too, edges are straight
         if values is None:
-            ax.tripcolor(x, y, self.cells, facecolors=np.asarray(self.cell_regions),
+            ax.tripcolor(x, y, cells, facecolors=np.asarray(self.cell_regions),
                          edgecolors="k", linewidth=0.2, **options)
         else:
-            ax.tripcolor(x, y, self.cells, np.asarray(values), **options)
-        for edge in self.facets:
+            ax.tripcolor(x, y, cells, np.asarray(values), **options)
+        for edge in self.facets[:, :2]:
             ax.plot(x[edge], y[edge], color="k", linewidth=1)
         return ax
 
     def __repr__(self) -> str:
         cells = "triangles" if self.dimension == 2 else "tetrahedra"
         return f"<Mesh: {len(self.points)} points, {len(self.cells)} {cells}>"
+
+
+# By dimension and order.
+_MESHIO = {(2, 1): ("triangle", "line"), (2, 2): ("triangle6", "line3"),
+           (3, 1): ("tetra", "triangle"), (3, 2): ("tetra10", "triangle6")}
+_VTK = {(2, 1): 5, (2, 2): 22, (3, 1): 10, (3, 2): 24}
+
+
+def _plain(region: float) -> Union[int, float]:
+    number = float(region)
+    return int(number) if number.is_integer() else number
 
 
 def _at(values: Any, default: float, what: str) -> float:
@@ -299,7 +350,7 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
          max_area: Optional[float] = None, max_volume: Optional[float] = None, size: Any = None,
          repair: bool = False, merge: bool = True, region_limits: bool = True,
          no_flat: bool = True, extent: str = "enclosed", bounds: Any = None,
-         algorithm: str = "automatic",
+         algorithm: str = "automatic", order: int = 1,
          max_vertices: int = 0, progress: Optional[Callable[[_c.Progress], Any]] = None,
          timeout: Optional[float] = None) -> Mesh:
     """Meshes what lines (in space polygons) enclose; if they enclose nothing, a box around it.
@@ -315,7 +366,7 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
     regions count. no_flat: in space, tetrahedra without volume, which Delaunay meshes have, are
     removed where that is possible. extent: "enclosed" or "box". bounds: 2 x d, the box in which
     points may lie. algorithm: "automatic", "refine", "svr", "gap_balls". max_vertices: more are an
-    error.
+    error. order: 2 for a mesh of second order, see `Mesh`.
 
     repair: lines and polygons may cross, touch and overlap. progress: called with a `Progress`; the
     run stops if it returns False. timeout: seconds. Ctrl-C stops it, too.
@@ -326,6 +377,8 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
     >>> m.dimension, m.cells.shape[1], bool(m.quality("min_angle").min() > 20.7)
     (2, 3, True)
     """
+    if order not in (1, 2):
+        raise ValueError(f"order is {order!r}, not 1 or 2")
     graph = graph_of(source, merge, segments=segments, segment_markers=segment_markers,
                      polylines=polylines, polyline_markers=polyline_markers, polygons=polygons,
                      polygon_markers=polygon_markers, holes=holes, regions=regions,
@@ -353,4 +406,4 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
         run.check(status, graph.dimension)
         assert made is not None
         del keep, sizes
-    return Mesh(made)
+    return Mesh(made) if order == 1 else Mesh(made).second_order()

@@ -40,10 +40,11 @@ Markers<LineId> line_markers(const Graph<D>& graph) {
 
 // There is one region, the box, and it is not enclosed.
 template <int D>
-DomainMesh<D> bare(Mesh<D> mesh) {
+DomainMesh<D> bare(Mesh<D> mesh, const Graph<D>& graph) {
   DomainMesh<D> all;
   all.regions.push_back({{}, 0, mesh.simplices.size(), 0, {}});
   all.mesh = MeshData<D>(std::move(mesh));
+  all.mesh.features.names = graph.names;
   return all;
 }
 
@@ -206,7 +207,7 @@ MeshData<3> with_features(Mesh<3> mesh, const Graph<3>& complex) {
 
 template <int D>
 DomainMesh<D> domain_mesh(Mesh<D> mesh, const Graph<D>& graph, Extent extent) {
-  if (is_bare(graph)) return bare(std::move(mesh));
+  if (is_bare(graph)) return bare(std::move(mesh), graph);
   const MeshData<D> whole = with_features(std::move(mesh), graph);
   Domain<D> domain = [&] {
     if constexpr (D == 2) {
@@ -215,8 +216,10 @@ DomainMesh<D> domain_mesh(Mesh<D> mesh, const Graph<D>& graph, Extent extent) {
       return find_domain(whole, whole.features.faces, graph.seeds, extent);
     }
   }();
-  return {extract(whole, domain).mesh, std::move(domain.regions), std::move(domain.faults),
-          domain.keeps_all};
+  DomainMesh<D> made{extract(whole, domain).mesh, std::move(domain.regions),
+                     std::move(domain.faults), domain.keeps_all};
+  made.mesh.features.names = graph.names;
+  return made;
 }
 
 #define MESHER_INSTANTIATE(D)                                                                     \

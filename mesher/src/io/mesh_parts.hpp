@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -49,6 +50,11 @@ template <std::size_t N>
   return true;
 }
 
+/// Takes the vertices out that are nodes of second order between corners, and no corners.
+/// `is_midpoint`: one per vertex, or fewer.
+template <int D>
+void drop_midpoints(MeshData<D>& mesh, const std::vector<bool>& is_midpoint);
+
 class MeshParts {
  public:
   explicit MeshParts(std::string file) : file_(std::move(file)) {}
@@ -73,7 +79,7 @@ class MeshParts {
     add<2>(corners, region);
     faces_.push_back(face_of(corners, marker, polygon));
   }
-  [[nodiscard]] static MeshFace face_of(Mesh<2>::Simplex corners, std::int64_t marker,
+  [[nodiscard]] static MeshFace face_of(Mesh<2>::Simplex corners, std::int64_t marker = 0,
                                         std::optional<PolygonId> polygon = {}) {
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
     return {corners, polygon, marker};
@@ -82,6 +88,17 @@ class MeshParts {
   template <int D>
   [[nodiscard]] std::size_t count() {
     return cells<D>().simplices.size();
+  }
+
+  /// What a node of second order is that a cell has between its corners.
+  void add_midpoint(std::uint32_t vertex) {
+    if (is_midpoint_.size() < vertices_.size()) is_midpoint_.resize(vertices_.size());
+    is_midpoint_[vertex] = true;
+  }
+  /// The name of a group of cells of that dimension, with that marker or region.
+  void add_name(int dimension, std::int64_t number, std::string_view name,
+                const FileLocation& place) {
+    names_.push_back({dimension, number, std::string(name), place});
   }
 
   /// One per vertex, or none.
@@ -112,6 +129,14 @@ class MeshParts {
   }
   template <int D>
   [[nodiscard]] MeshData<D> take();
+  template <int D>
+  [[nodiscard]] GroupNames take_names();
+  struct NamedGroup {
+    int dimension;
+    std::int64_t number;
+    std::string name;
+    FileLocation place;
+  };
 
   std::string file_;
   std::vector<Point<3>> vertices_;
@@ -119,6 +144,8 @@ class MeshParts {
   std::vector<MeshFace> faces_;  // the same
   Cells<3> tetrahedra_;
   PlaneHeight height_;
+  std::vector<bool> is_midpoint_;  // for the first vertices, or all
+  std::vector<NamedGroup> names_;
 };
 
 }  // namespace mesher

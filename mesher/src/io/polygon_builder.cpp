@@ -67,8 +67,9 @@ void PolygonBuilder::add_seeds() {
 void PolygonBuilder::add_region(const RingPolygon& polygon, const std::optional<Point<2>>& seed,
                                 double number) {
   if (seed) {
-    return build_.add_region(*seed, polygon.attribute.value_or(number), polygon.max_area,
-                             polygon.positions[0]);
+    const double attribute = polygon.attribute.value_or(number);
+    build_.add_region(*seed, attribute, polygon.max_area, polygon.positions[0]);
+    return build_.name_region(attribute, polygon.name);
   }
   note("a polygon too thin to have a place inside: only its lines are used", polygon.positions[0]);
 }

@@ -19,6 +19,7 @@ struct RingPolygon {
   std::int64_t marker = 0;
   std::optional<double> attribute;
   std::optional<double> max_area;
+  NameInFile name{};
 };
 
 class PolygonBuilder {

@@ -1,6 +1,7 @@
 // Graphs of formats without ids.
 #include <utility>
 
+#include "io/names_read.hpp"
 #include "io/read_pslg.hpp"
 
 namespace mesher {
@@ -42,6 +43,15 @@ void PslgBuilder::add_region(const Point<2>& at, double attribute, std::optional
                              FilePosition position) {
   out_.graph.seeds.push_back(region_seed<2>(++regions_, at, attribute, max_area));
   out_.seeds.push_back(position);
+}
+
+void PslgBuilder::name_marker(std::int64_t marker, const NameInFile& name) {
+  GroupNames& names = out_.graph.names;
+  add_name(names, names.facets, marker, name.text, name.place, notes_);
+}
+void PslgBuilder::name_region(double attribute, const NameInFile& name) {
+  GroupNames& names = out_.graph.names;
+  add_name(names, names.regions, attribute + 0.0, name.text, name.place, notes_);
 }
 
 GraphFile<2> PslgBuilder::finish() {

@@ -40,6 +40,7 @@ GraphFile<D> read_node_points(const std::string& path, CoincidingPoints coincidi
 GraphFile<3> plc_of(Surface surface) {
   GraphFile<3> out;
   out.file = out.point_file = surface.rows.file;
+  out.graph.names = std::move(surface.names);
   out.notes = std::move(surface.rows.notes);
   for (std::size_t i = 0; i < surface.rows.points.size(); ++i) {
     out.graph.points.push_back({surface.rows.ids[i], surface.rows.points[i]});

@@ -18,6 +18,7 @@ struct Properties {
   std::int64_t marker = 0;
   std::optional<double> attribute;
   std::optional<double> max_area;
+  NameInFile name{};
 };
 
 class GeoJsonReader {
@@ -91,7 +92,14 @@ class GeoJsonReader {
     Properties properties;
     if (object == nullptr || object->kind == Kind::null) return properties;
     require(*object, Kind::object, "an object of properties");
-    note_members(*object, {"marker", "attribute", "max_area"}, "property");
+    const JsonValue* const name = object->find("name");
+    const bool has_name = name != nullptr && name->kind == Kind::string;
+    if (has_name) properties.name = {name->text, source_.place(name->at)};
+    if (has_name) {
+      note_members(*object, {"marker", "attribute", "max_area", "name"}, "property");
+    } else {
+      note_members(*object, {"marker", "attribute", "max_area"}, "property");
+    }
     if (const auto* marker = number_in(*object, "marker")) {
       properties.marker = source_.integer(marker->at);
     }
@@ -152,18 +160,27 @@ class GeoJsonReader {
 
   void read_point(const JsonValue& position, const Properties& properties) {
     build_.point_at(position_of(position), properties.marker, source_.position(position.at));
+    note_name(properties, "a point");
+  }
+
+  void note_name(const Properties& properties, const std::string& of) {
+    if (properties.name.text.empty()) return;
+    build_.note("the name of " + of + " is not used", properties.name.place);
   }
 
   void read_line(const JsonValue& line, const Properties& properties) {
     require(line, Kind::array, "an array of positions");
     if (line.values.size() < 2) fail("a line has two positions or more", line);
     polygons_.add_line(places_of(line, properties), properties.marker, source_.position(line.at));
+    if (properties.marker != 0) return build_.name_marker(properties.marker, properties.name);
+    note_name(properties, "a line without a marker");
   }
 
   void read_polygon(const JsonValue& polygon, const Properties& properties) {
     require(polygon, Kind::array, "an array of rings");
     if (polygon.values.empty()) fail("a polygon has a ring", polygon);
-    RingPolygon added{{}, {}, properties.marker, properties.attribute, properties.max_area};
+    RingPolygon added{
+        {}, {}, properties.marker, properties.attribute, properties.max_area, properties.name};
     for (const JsonValue& ring : polygon.values) {
       require(ring, Kind::array, "a ring of positions");
       if (ring.values.size() < 4) fail("a ring has four positions or more", ring);

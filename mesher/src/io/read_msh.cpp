@@ -1,4 +1,6 @@
-// Reads `.msh` files (Gmsh, version 4.1).
+// Reads `.msh` files (Gmsh, versions 4.1 and 2.2).
+//
+// Version 4.1:
 //
 //   $MeshFormat      4.1 0 8
 //   $PhysicalNames   n   dimension number "name"
@@ -8,11 +10,22 @@
 //
 // In a binary file names are text; elsewhere integers have 4 bytes, but counts, and the tags of
 // nodes and elements, 8. A 1 in $MeshFormat shows the order of bytes.
+//
+// Version 2.2:
+//
+//   $Nodes           n   number place
+//   $Elements        n   number type tags, tags (the first is a group), nodes
+//
+// In a binary file counts are text, other integers have 4 bytes, and elements come in blocks:
+// type, n, tags, then number, tags and nodes of each.
+//
+// Elements of second order are read by their corners.
 #include <map>
 #include <set>
 #include <utility>
 
 #include "io/binary.hpp"
+#include "io/names_read.hpp"
 #include "io/note_counter.hpp"
 #include "io/read_mesh.hpp"
 #include "io/rows.hpp"
@@ -21,10 +34,14 @@
 namespace mesher {
 namespace {
 
-constexpr std::int64_t kLine = 1, kTriangle = 2, kTetrahedron = 4, kPoint = 15;  // types
+// Types of elements. Those of second order have the corners first, then nodes between them.
+constexpr std::int64_t kLine = 1, kTriangle = 2, kTetrahedron = 4, kPoint = 15;
+constexpr std::int64_t kQuadraticLine = 8, kQuadraticTriangle = 9, kQuadraticTetrahedron = 11;
 constexpr std::int64_t kCurve = 1, kSurface = 2, kVolume = 3;  // dimensions of entities
 
 using Key = std::pair<std::int64_t, std::int64_t>;  // dimension and number
+
+constexpr const char* kPointsNote = "elements that are points are not used";
 
 class MshReader {
  public:
@@ -65,7 +82,7 @@ class MshReader {
     const std::string_view field = take();
     return {source_.integer(field), field};
   }
-  Number tag() { return number(8); }  // of nodes and elements
+  Number tag() { return number(is_old_ ? 4 : 8); }  // of nodes and elements
   std::int64_t integer() { return number(4).value; }
   std::int64_t count() {
     const Number n = number(8);
@@ -85,9 +102,11 @@ class MshReader {
 
   void read_format() {
     const std::string_view version = take();
-    if (version != "4.1") {
+    is_old_ = version == "2.2" || version == "2.1" || version == "2";
+    if (version != "4.1" && !is_old_) {
       throw source_.error(ErrorCode::unsupported,
-                          "version " + text::quoted(version) + ": save as version 4.1", version);
+                          "version " + text::quoted(version) + ": save as version 4.1 or 2.2",
+                          version);
     }
     const std::string_view kind = take();
     binary_ = kind == "1";
@@ -113,15 +132,15 @@ class MshReader {
 
   void read_section(std::string_view word) {
     const bool has_numbers = word == "$Entities" || word == "$Nodes" || word == "$Elements";
-    if (binary_ && has_numbers) bytes_.begin();
+    if (binary_ && has_numbers && !is_old_) bytes_.begin();
     if (word == "$PhysicalNames") {
       read_names();
     } else if (word == "$Entities") {
       read_entities();
     } else if (word == "$Nodes") {
-      read_nodes();
+      is_old_ ? read_old_nodes() : read_nodes();
     } else if (word == "$Elements") {
-      read_elements();
+      is_old_ ? read_old_elements() : read_elements();
     } else {
       return skip_section(word);
     }
@@ -152,7 +171,11 @@ class MshReader {
       if (first[0] != '"' || end == std::string_view::npos) {
         throw source_.error(ErrorCode::bad_syntax, "expected a name in quotes", first);
       }
-      names_[{dimension, number}] = source_.content().substr(begin, end - begin);
+      const std::string_view name = source_.content().substr(begin, end - begin);
+      names_[{dimension, number}] = name;
+      if (dimension > 0) {
+        mesh_.add_name(static_cast<int>(dimension), number, name, source_.place(first));
+      }
       fields_ = text::Fields(source_.content().substr(end + 1));
     }
   }
@@ -230,52 +253,120 @@ class MshReader {
     require_count("elements", elements, done);
   }
 
+  // Of version 2.2: a count is text.
+  std::int64_t old_count() {
+    const std::string_view field = take();
+    const std::int64_t n = source_.integer(field);
+    if (n < 0)
+      throw source_.error(ErrorCode::bad_header, "a count of " + text::quoted(field), field);
+    if (binary_) bytes_.begin();
+    return n;
+  }
+  void read_old_nodes() {
+    const std::int64_t nodes = old_count();
+    for (std::int64_t i = 0; i < nodes; ++i) add_node(tag());
+    require_indexable(mesh_.vertices(), source_.file());
+  }
+  void read_old_elements() {
+    const std::int64_t elements = old_count();
+    for (std::int64_t done = 0; done < elements;) {
+      const Number first = binary_ ? Number{0, {}} : tag();
+      const Number type = number(4);
+      require_type(type);
+      const Number in_block = binary_ ? number(4) : Number{1, {}};
+      if (in_block.value < 1 || in_block.value > elements - done) {
+        throw error(ErrorCode::wrong_count, "a block of " + in_block.text() + " elements",
+                    in_block);
+      }
+      done += in_block.value;
+      const std::int64_t tags = integer();
+      for (std::int64_t i = 0; i < in_block.value; ++i) {
+        const Number name = binary_ ? tag() : first;
+        std::int64_t group = 0;
+        for (std::int64_t k = 0; k < tags; ++k) {
+          const std::int64_t value = integer();
+          if (k == 0) group = value;
+        }
+        read_old_element(type, name, group);
+      }
+    }
+  }
+  void read_old_element(const Number& type, const Number& name, std::int64_t group) {
+    if (type.value == kPoint) mesh_.notes.add(kPointsNote, place(type));
+    const Key key{dimension_of_type(type.value), group};
+    read_element(type.value, name, region_of_group(key), marker_of_group(key));
+  }
+
   void read_block(const Number& type, const Key& entity, std::int64_t elements) {
-    switch (type.value) {
-      case kPoint:
-        mesh_.notes.add("elements that are points are not used", place(type));
-        for (; elements > 0; --elements) (void)tag(), (void)node();
-        return;
-      case kLine:
-        return read_lines(marker_of(entity), elements);
-      case kTriangle:
-        return read_simplices<2>(region_of(entity), elements, marker_of(entity));
-      case kTetrahedron:
-        return read_simplices<3>(region_of(entity), elements);
+    require_type(type);
+    if (type.value == kPoint) mesh_.notes.add(kPointsNote, place(type));
+    const double region = region_of(entity);
+    const std::int64_t marker = marker_of(entity);
+    for (; elements > 0; --elements) read_element(type.value, tag(), region, marker);
+  }
+
+  static std::int64_t dimension_of_type(std::int64_t type) {
+    if (type == kPoint) return 0;
+    if (type == kLine || type == kQuadraticLine) return kCurve;
+    return type == kTriangle || type == kQuadraticTriangle ? kSurface : kVolume;
+  }
+  void require_type(const Number& type) const {
+    for (const std::int64_t known : {kPoint, kLine, kTriangle, kTetrahedron, kQuadraticLine,
+                                     kQuadraticTriangle, kQuadraticTetrahedron}) {
+      if (type.value == known) return;
     }
     throw error(ErrorCode::unsupported,
                 "elements of the type " + type.text() +
-                    ": points (15), lines (1) and triangles (2), or tetrahedra (4), make a mesh",
+                    ": points (15), lines (1, 8) and triangles (2, 9), or tetrahedra (4, 11), make "
+                    "a mesh",
                 type);
   }
 
-  void read_lines(std::int64_t marker, std::int64_t elements) {
-    for (; elements > 0; --elements) {
-      const Number number = tag();
-      const std::uint32_t a = node(), b = node();
-      MeshEdge edge = edge_of(a, b, [&] { return place(number); });
-      edge.marker = marker;
-      mesh_.edges.push_back(edge);
+  void read_element(std::int64_t type, const Number& name, double region, std::int64_t marker) {
+    switch (type) {
+      case kPoint:
+        (void)node();
+        return;
+      case kLine:
+      case kQuadraticLine:
+        read_line(name, marker);
+        return type == kQuadraticLine ? skip_midpoints(1, name) : void();
+      case kTriangle:
+      case kQuadraticTriangle:
+        read_simplex<2>(name, region, marker);
+        return type == kQuadraticTriangle ? skip_midpoints(3, name) : void();
+      default:
+        read_simplex<3>(name, region, marker);
+        return type == kQuadraticTetrahedron ? skip_midpoints(6, name) : void();
     }
   }
 
+  void skip_midpoints(int nodes, const Number& name) {
+    mesh_.notes.add("the nodes between corners of elements of second order are not used",
+                    place(name));
+    for (; nodes > 0; --nodes) mesh_.add_midpoint(node());
+  }
+
+  void read_line(const Number& name, std::int64_t marker) {
+    const std::uint32_t a = node(), b = node();
+    MeshEdge edge = edge_of(a, b, [&] { return place(name); });
+    edge.marker = marker;
+    mesh_.edges.push_back(edge);
+  }
+
   template <int D>
-  void read_simplices(double region, std::int64_t elements, std::int64_t marker = 0) {
-    for (; elements > 0; --elements) {
-      const Number number = tag();
-      typename Mesh<D>::Simplex corners;
-      for (auto& corner : corners) corner = node();
-      if (!are_different(corners)) {
-        throw error(
-            ErrorCode::bad_mesh,
-            std::string(kSimplexName<D>) + ' ' + number.text() + " has the same corner twice",
-            number);
-      }
-      if constexpr (D == 2) {
-        mesh_.add_triangle(corners, region, marker);
-      } else {
-        mesh_.add<D>(corners, region);
-      }
+  void read_simplex(const Number& name, double region, std::int64_t marker) {
+    typename Mesh<D>::Simplex corners;
+    for (auto& corner : corners) corner = node();
+    if (!are_different(corners)) {
+      throw error(ErrorCode::bad_mesh,
+                  std::string(kSimplexName<D>) + ' ' + name.text() + " has the same corner twice",
+                  name);
+    }
+    if constexpr (D == 2) {
+      mesh_.add_triangle(corners, region, marker);
+    } else {
+      mesh_.add<D>(corners, region);
     }
   }
 
@@ -286,26 +377,35 @@ class MshReader {
     throw error(ErrorCode::bad_mesh, "there is no node " + n.text(), n);
   }
 
-  // What the name says behind its first word, as write_mesh writes it, or nothing.
+  // The number behind its first word if the name is that of a number, as write_mesh writes it;
+  // empty if it is another.
   std::string_view named_value(const Key& group, std::string_view word) const {
-    const auto name = names_.find(group);
-    if (name == names_.end()) return {};
-    const std::string_view said = name->second;
-    return said.substr(0, word.size()) == word ? said.substr(word.size()) : std::string_view();
+    const auto found = names_.find(group);
+    if (found == names_.end() || !is_name_of_number(found->second)) return {};
+    const std::string_view name = found->second;
+    return name.substr(0, word.size()) == word ? name.substr(word.size() + 1) : std::string_view();
+  }
+
+  double region_of_group(const Key& group) const {
+    const auto value = named_value(group, "region");
+    return value.empty() ? static_cast<double>(group.second) : source_.finite(value);
+  }
+  // In the plane of surfaces, too, which are faces in space.
+  std::int64_t marker_of_group(const Key& group) const {
+    for (const std::string_view word : {"marker", "line"}) {
+      const auto value = named_value(group, word);
+      if (!value.empty()) return source_.integer(value);
+    }
+    return group.second;
   }
 
   double region_of(const Key& entity) const {
     const auto number = group_of_.find(entity);
-    if (number == group_of_.end()) return 0;
-    const auto value = named_value({entity.first, number->second}, "region ");
-    return value.empty() ? static_cast<double>(number->second) : source_.finite(value);
+    return number == group_of_.end() ? 0 : region_of_group({entity.first, number->second});
   }
-
   std::int64_t marker_of(const Key& entity) const {
     const auto number = group_of_.find(entity);
-    if (number == group_of_.end()) return 0;
-    const auto value = named_value({entity.first, number->second}, "marker ");
-    return value.empty() ? number->second : source_.integer(value);
+    return number == group_of_.end() ? 0 : marker_of_group({entity.first, number->second});
   }
 
   void require_count(const std::string& what, std::int64_t said, std::size_t found) const {
@@ -319,7 +419,7 @@ class MshReader {
   const text::Source& source_;
   text::Fields fields_;
   BinaryCursor bytes_;
-  bool binary_ = false;
+  bool binary_ = false, is_old_ = false;
   MeshParts mesh_;
   std::map<std::int64_t, std::uint32_t> node_;  // by tag
   std::map<Key, std::int64_t> group_of_;        // of an entity

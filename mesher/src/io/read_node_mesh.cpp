@@ -1,10 +1,13 @@
 // Reads the files of a mesh that Triangle or TetGen would write: `.node` and `.ele`, and where they
 // are, `.edge`, in the plane `.poly` and `.neigh`, in space `.face`.
 //
-//   .ele:   count [corners [attributes]]     id corner corner corner [corner] [attributes...]
+//   .ele:   count [nodes [attributes]]       id corner corner corner [corner] [attributes...]
 //   .edge:  count [markers]                  id vertex vertex [marker [line]]
 //   .face:  count [markers]                  id vertex vertex vertex [marker [polygon]]
 //   .neigh: count 3                          id triangle triangle triangle    (-1: none)
+//
+// Of second order, triangles have 6 nodes and tetrahedra 10: three or six between corners follow
+// the corners, in .face three, in .edge of tetrahedra one. They are not used.
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -63,6 +66,7 @@ class NodeMesh {
       read_faces(beside(".face"));
     }
     for (const auto& [ends, edge] : edges_) mesh_.features.edges.push_back(edge);
+    if (is_second_order_) drop_midpoints(mesh_, is_midpoint_);
     mesh_.notes = notes_.notes();
     return std::move(mesh_);
   }
@@ -90,12 +94,14 @@ class NodeMesh {
   }
 
   void read_simplices(const std::string& path) {
-    constexpr std::size_t kCorners = D + 1;
+    constexpr std::size_t kCorners = D + 1, kSecondOrder = D == 2 ? 6 : 10;
     const std::string content = text::read_file(path);
     text::FieldLines lines(path, content);
     const text::Line& header = header_row(lines, path);
     const std::int64_t count = read_count(header, 0);
-    if (header.size() > 1 && header.integer(1) != kCorners) {
+    is_second_order_ = header.size() > 1 && header.integer(1) == kSecondOrder;
+    if (is_second_order_) note_second_order(header);
+    if (header.size() > 1 && header.integer(1) != kCorners && !is_second_order_) {
       throw header.error(ErrorCode::bad_dimension,
                          std::string("expected ") + kSimplicesName<D> + ": " +
                              std::to_string(kCorners) + " corners each",
@@ -104,16 +110,28 @@ class NodeMesh {
     const std::int64_t attributes = header.size() > 2 ? read_count(header, 2) : 0;
     if (attributes > 1) notes_.add("attributes but the first are not used", header.place(2));
     std::vector<PointId> ids;
-    const std::size_t fields = 1 + kCorners + (attributes > 0 ? 1 : 0);
+    const std::size_t nodes = is_second_order_ ? kSecondOrder : kCorners;
+    const std::size_t fields = 1 + nodes + (attributes > 0 ? 1 : 0);
     while (std::cmp_less(ids.size(), count)) {
       const text::Line& line = next_row(lines, fields, ids.size(), count, kSimplicesName<D>);
       ids.push_back(PointId{line.integer(0)});
       mesh_.simplices.push_back(
           read_corners<D>(line, 1, [&](std::size_t i) { return vertices_.vertex(line, i); }));
-      if (attributes > 0) mesh_.features.regions.push_back(line.finite(1 + kCorners));
+      skip_midpoints(line, 1 + kCorners, nodes - kCorners);
+      if (attributes > 0) mesh_.features.regions.push_back(line.finite(1 + nodes));
     }
     require_end(lines, kSimplicesName<D>);
     triangles_ = IdTable(ids);
+  }
+
+  void note_second_order(const text::Line& header) {
+    notes_.add("the nodes between corners of elements of second order are not used",
+               header.place(1));
+    is_midpoint_.resize(mesh_.vertices.size());
+  }
+  // Fields first, first + 1, ... of `line`.
+  void skip_midpoints(const text::Line& line, std::size_t first, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) is_midpoint_[vertices_.vertex(line, first + i)] = true;
   }
 
   // Edges with neither marker nor line are not worth a word.
@@ -122,11 +140,13 @@ class NodeMesh {
     text::FieldLines lines(path, content);
     const std::int64_t count = read_count(header_row(lines, path), 0);
     for (std::size_t done = 0; std::cmp_less(done, count); ++done) {
-      const text::Line& line = next_row(lines, 3, done, count, "edges");
+      const std::size_t between = D == 3 && is_second_order_ ? 1 : 0;
+      const text::Line& line = next_row(lines, 3 + between, done, count, "edges");
       MeshEdge edge = edge_of(vertices_.vertex(line, 1), vertices_.vertex(line, 2),
                               [&] { return line.place(1); });
-      if (line.size() > 3) edge.marker = line.integer(3);
-      if (line.size() > 4) edge.line = LineId{line.integer(4)};
+      skip_midpoints(line, 3, between);
+      if (line.size() > 3 + between) edge.marker = line.integer(3 + between);
+      if (line.size() > 4 + between) edge.line = LineId{line.integer(4 + between)};
       if (edge.marker == 0 && !edge.line) continue;
       if (!edges_.try_emplace({edge.low, edge.high}, edge).second) {
         throw line.error(ErrorCode::bad_mesh, "an edge that is given twice", 1);
@@ -141,11 +161,14 @@ class NodeMesh {
     text::FieldLines lines(path, content);
     const std::int64_t count = read_count(header_row(lines, path), 0);
     for (std::size_t done = 0; std::cmp_less(done, count); ++done) {
-      const text::Line& line = next_row(lines, 4, done, count, "faces");
+      const std::size_t between = is_second_order_ ? 3 : 0;
+      const text::Line& line = next_row(lines, 4 + between, done, count, "faces");
       const auto corners =
           read_corners<2>(line, 1, [&](std::size_t i) { return vertices_.vertex(line, i); });
-      MeshFace face = MeshParts::face_of(corners, line.size() > 4 ? line.integer(4) : 0);
-      if (line.size() > 5) face.polygon = PolygonId{line.integer(5)};
+      skip_midpoints(line, 4, between);
+      MeshFace face = MeshParts::face_of(corners);
+      if (line.size() > 4 + between) face.marker = line.integer(4 + between);
+      if (line.size() > 5 + between) face.polygon = PolygonId{line.integer(5 + between)};
       if (face.marker != 0 || face.polygon) mesh_.features.faces.push_back(face);
     }
     require_end(lines, "faces");
@@ -201,6 +224,8 @@ class NodeMesh {
   std::string path_;
   MeshData<D> mesh_;
   IdTable vertices_, triangles_;
+  bool is_second_order_ = false;
+  std::vector<bool> is_midpoint_;  // one per vertex, in second order
   std::map<std::pair<std::uint32_t, std::uint32_t>, MeshEdge> edges_;
   NoteCounter notes_;
 };

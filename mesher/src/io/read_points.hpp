@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/point_file.hpp"
+#include "mesher/names.hpp"
 
 namespace mesher {
 
@@ -38,6 +39,7 @@ struct Surface {
   };
   PointFile<3> rows;
   std::vector<Face> faces;
+  GroupNames names{};  ///< of markers
 };
 [[nodiscard]] Surface read_off_surface(const std::string& path);
 [[nodiscard]] Surface read_obj_surface(const std::string& path);

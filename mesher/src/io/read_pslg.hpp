@@ -19,6 +19,12 @@ namespace mesher {
 [[nodiscard]] GraphFile<2> read_obj_lines(const std::string& path);
 [[nodiscard]] GraphFile<2> read_vtu_lines(const std::string& path);
 
+/// A name of a group, "" for none, and where it is.
+struct NameInFile {
+  std::string text;
+  FileLocation place;
+};
+
 /// A graph in the making, for formats without ids: numbers points and lines from 1.
 class PslgBuilder {
  public:
@@ -33,6 +39,10 @@ class PslgBuilder {
   void add_hole(const Point<2>& at, FilePosition position);
   void add_region(const Point<2>& at, double attribute, std::optional<double> max_area,
                   FilePosition position);
+
+  /// Name what has a marker, or a region.
+  void name_marker(std::int64_t marker, const NameInFile& name);
+  void name_region(double attribute, const NameInFile& name);
 
   /// Notes that something is not used.
   void note(const std::string& what, const FileLocation& place) { notes_.add(what, place); }

@@ -11,6 +11,7 @@
 #include <map>
 #include <string_view>
 
+#include "io/face_groups.hpp"
 #include "io/read_points.hpp"
 #include "io/vtu_data.hpp"
 #include "text/text.hpp"
@@ -100,15 +101,25 @@ class StlText {
   Surface read() {
     while (lines_.next()) {
       require("solid");
+      groups_.begin(name_of_solid(), line().place(0));
       next();
       for (; line()[0] != "endsolid"; next()) read_facet();
     }
-    return all_.take();
+    Surface surface = all_.take();
+    NoteCounter notes;
+    groups_.mark(surface, notes);
+    surface.rows.notes = notes.notes();
+    return surface;
   }
 
  private:
   [[nodiscard]] const text::Line& line() const { return lines_.line(); }
 
+  // What follows the word.
+  [[nodiscard]] std::string_view name_of_solid() const {
+    const std::string_view all = line().trimmed();
+    return all.substr(std::min(all.find_first_of(" \t"), all.size()));
+  }
   void next() {
     if (lines_.next()) return;
     throw line().error(ErrorCode::truncated, "the file ends before 'endsolid'", line().size());
@@ -130,6 +141,7 @@ class StlText {
     require("endloop");
     next();
     require("endfacet");
+    groups_.add_face();
   }
   void read_vertex() {
     require("vertex");
@@ -142,6 +154,7 @@ class StlText {
 
   text::FieldLines lines_;
   Corners all_;
+  FaceGroups groups_;
 };
 
 bool is_text(const std::string& content) {

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "io/face_groups.hpp"
 #include "io/note_counter.hpp"
 #include "io/read_mesh.hpp"
 #include "io/read_points.hpp"
@@ -114,20 +115,28 @@ Surface read_off(const std::string& path, Faces use) {
   return out;
 }
 
+bool is_group(const text::Line& line) { return line[0] == "g" || line[0] == "o"; }
+
+// A group has the name behind `g` or `o`.
 Surface read_obj(const std::string& path, Faces use) {
   const std::string content = text::read_file(path);
   Surface out{{path, {}, {}, {}}, {}};
   NoteCounter notes;
+  FaceGroups groups;
   for (text::FieldLines lines(path, content); lines.next();) {
     const text::Line& line = lines.line();
     if (line[0] == "v") {
       read_vertex(line, out.rows, notes);
     } else if (line[0] == "f" && use == Faces::use) {
       out.faces.push_back(read_obj_face(line, out.rows.points.size()));
+      groups.add_face();
+    } else if (is_group(line) && use == Faces::use) {
+      groups.begin(line.trimmed().substr(1), line.place(0));
     } else {
       note_statement(line, notes);
     }
   }
+  groups.mark(out, notes);
   out.rows.notes = notes.notes();
   return out;
 }

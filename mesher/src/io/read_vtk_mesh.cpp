@@ -67,6 +67,12 @@ class GridMesh {
         return add_simplex<2>(i, vertices);
       case VtkCell::tetrahedron:
         return add_simplex<3>(i, vertices);
+      case VtkCell::quadratic_triangle:
+        return add_simplex<2>(i, corners_of_second_order(vertices, 3, 6));
+      case VtkCell::quadratic_tetrahedron:
+        return add_simplex<3>(i, corners_of_second_order(vertices, 4, 10));
+      case VtkCell::quadratic_line:
+        return add_line(i, corners_of_second_order(vertices, 2, 3));
       case VtkCell::line:
       case VtkCell::poly_line:
         return add_line(i, vertices);
@@ -80,8 +86,19 @@ class GridMesh {
     throw Error(ErrorCode::unsupported,
                 "cell " + std::to_string(i) + " has the type " +
                     std::to_string(grid_.types.integers[i]) +
-                    ": triangles (5) and lines (3, 4), or tetrahedra (10), make a mesh",
+                    ": triangles (5, 22) and lines (3, 4, 21), or tetrahedra (10, 24), make a mesh",
                 grid_.types.place);
+  }
+
+  // The first of a cell's nodes; none if they are too few or too many, which no cell has.
+  std::vector<std::uint32_t> corners_of_second_order(std::vector<std::uint32_t> nodes,
+                                                     std::size_t corners, std::size_t all) {
+    if (nodes.size() != all) return {};
+    grid_.notes.add("the nodes between corners of cells of second order are not used",
+                    grid_.types.place);
+    for (std::size_t i = corners; i < all; ++i) mesh_.add_midpoint(nodes[i]);
+    nodes.resize(corners);
+    return nodes;
   }
 
   template <int D>

@@ -2,18 +2,14 @@
 // then the edges on lines.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "io/vtk_grid.hpp"
+#include "io/write_mesh.hpp"
 #include "mesher/mesh.hpp"
 
 namespace mesher {
-
-inline constexpr int kVtkLine = static_cast<int>(VtkCell::line);
-inline constexpr int kVtkTriangle = static_cast<int>(VtkCell::triangle);
-inline constexpr int kVtkTetrahedron = static_cast<int>(VtkCell::tetrahedron);
 
 [[nodiscard]] inline std::vector<std::int64_t> as_integers(const std::vector<Feature>& origins) {
   std::vector<std::int64_t> integers;
@@ -76,12 +72,24 @@ struct CellData {
   }
 };
 
-/// Calls visit(type, corners) for each cell.
+/// Calls visit(type, nodes) for each cell.
 template <int D, class Visit>
-void for_each_cell(const Mesh<D>& mesh, const MeshFeatures& features, Visit&& visit) {
-  for (const auto& s : mesh.simplices) visit(D == 2 ? kVtkTriangle : kVtkTetrahedron, s);
-  for (const MeshFace& f : features.faces) visit(kVtkTriangle, f.corners);
-  for (const MeshEdge& e : features.edges) visit(kVtkLine, std::array{e.low, e.high});
+void for_each_cell(const Mesh<D>& mesh, const MeshFeatures& features, const WriteHow<D>& how,
+                   Visit&& visit) {
+  const auto type_of = [&](VtkCell first, VtkCell second) {
+    return static_cast<int>(how.second == nullptr ? first : second);
+  };
+  const int line = type_of(VtkCell::line, VtkCell::quadratic_line);
+  const int triangle = type_of(VtkCell::triangle, VtkCell::quadratic_triangle);
+  const int tetrahedron = type_of(VtkCell::tetrahedron, VtkCell::quadratic_tetrahedron);
+  const auto visit_as = [&](int type) {
+    return [&visit, type](const auto& nodes) { visit(type, nodes); };
+  };
+  for (const auto& s : mesh.simplices) {
+    visit_nodes<D>(s, how, visit_as(D == 2 ? triangle : tetrahedron));
+  }
+  for (const MeshFace& f : features.faces) visit_nodes(f, how, visit_as(triangle));
+  for (const MeshEdge& e : features.edges) visit_nodes(e, how, visit_as(line));
 }
 template <int D>
 [[nodiscard]] std::size_t cell_count(const Mesh<D>& mesh, const MeshFeatures& features) {

@@ -22,7 +22,10 @@ enum class VtkCell : std::uint8_t {
   triangle = 5,
   polygon = 7,
   quad = 9,
-  tetrahedron = 10
+  tetrahedron = 10,
+  quadratic_line = 21,
+  quadratic_triangle = 22,
+  quadratic_tetrahedron = 24
 };
 
 /// Numbers under a name; all integers, or all doubles.

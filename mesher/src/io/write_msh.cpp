@@ -1,10 +1,13 @@
-// Writes `.msh` files (Gmsh, version 4.1, ASCII), nodes and elements numbered from 1; in the plane
-// z = 0.
+// Writes `.msh` files (Gmsh, versions 4.1 and 2.2, ASCII), nodes and elements numbered from 1; in
+// the plane z = 0.
 //
 // Gmsh keeps elements in entities, and names groups of entities. Here each region is a surface, and
 // each marker of edges a curve; in space each region is a volume, and each marker of faces a
 // surface. The nodes, in their order, are all of the first region. If there is a group, every
 // entity is in one: readers take a file without groups, or all of it in groups.
+//
+// Names stand in the order facets, regions, in space edges: gmshToFoam takes the first name of a
+// number, whatever its dimension, and patches are what it needs names for.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -19,7 +22,8 @@ namespace {
 
 constexpr std::size_t kFirst = 1;
 constexpr int kLine = 1, kTriangle = 2, kTetrahedron = 4;  // element types
-constexpr std::size_t kCurve = 1, kSurface = 2;            // dimensions of entities
+constexpr int kQuadraticLine = 8, kQuadraticTriangle = 9, kQuadraticTetrahedron = 11;
+constexpr std::size_t kCurve = 1, kSurface = 2;  // dimensions of entities
 
 // Elements of one entity, in the order of the mesh.
 template <int D>
@@ -29,32 +33,38 @@ struct Entity {
   std::string group;  // its name; empty: none
   std::int32_t number;
   Box<D> box;
-  std::vector<std::vector<std::uint32_t>> elements;
+  std::vector<std::vector<std::uint32_t>> elements;  // by nodes
 };
+
+// Gmsh has the last two midpoints of a tetrahedron the other way around.
+template <std::size_t N>
+std::vector<std::uint32_t> in_order_of_gmsh(std::array<std::uint32_t, N> nodes) {
+  if constexpr (N == 10) std::swap(nodes[8], nodes[9]);
+  return {nodes.begin(), nodes.end()};
+}
 
 template <int D>
 class MshWriter {
  public:
-  MshWriter(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file)
-      : mesh_(mesh), features_(features), file_(file) {
+  MshWriter(const Mesh<D>& mesh, const MeshFeatures& features, const WriteHow<D>& how,
+            TextFile& file)
+      : mesh_(mesh), features_(features), how_(how), file_(file) {
     collect_simplices();
-    collect_parts(kCurve, kLine, features.edges, [](const MeshEdge& e) {
-      return std::array{e.low, e.high};
-    });
-    if (D == 3) {
-      collect_parts(kSurface, kTriangle, features.faces,
-                    [](const MeshFace& f) { return f.corners; });
-    }
-    if (groups() > 0) {
-      for (std::size_t d = kCurve; d <= D; ++d) {
-        group_rest(entities_[d], d == D ? "region 0" : "marker 0");
-      }
-    }
+    collect_parts(kCurve, type(kLine, kQuadraticLine), features.edges);
+    if (D == 3) collect_parts(kSurface, type(kTriangle, kQuadraticTriangle), features.faces);
+    if (groups() == 0 && !names_zero()) return;
+    for (std::size_t d = kCurve; d <= D; ++d) group_rest(entities_[d], name_of(d, 0));
   }
 
   void write() {
-    file_ << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+    const bool is_old = how_.msh == MshVersion::v2_2;
+    file_ << "$MeshFormat\n" << (is_old ? "2.2" : "4.1") << " 0 8\n$EndMeshFormat\n";
     write_names();
+    if (is_old) {
+      write_old_nodes();
+      write_old_elements();
+      return;
+    }
     write_entities();
     write_nodes();
     write_elements();
@@ -64,39 +74,58 @@ class MshWriter {
   using Entity = mesher::Entity<D>;
   using Elements = std::vector<std::vector<std::uint32_t>>;
 
+  [[nodiscard]] int type(int first, int second) const {
+    return how_.second == nullptr ? first : second;
+  }
+
+  // The name of a marker or region, of elements of a dimension.
+  [[nodiscard]] std::string name_of(std::size_t dimension, std::int64_t marker) const {
+    const GroupNames& names = features_.names;
+    if (dimension == D) return names.of_region(static_cast<double>(marker));
+    return dimension == D - 1 ? names.of_facets(marker) : names.of_lines(marker);
+  }
+  // Whether what has no marker, or no region, has a name nevertheless.
+  [[nodiscard]] bool names_zero() const {
+    const GroupNames& names = features_.names;
+    return names.facets.contains(0) || names.regions.contains(0) ||
+           (D == 3 && names.lines.contains(0));
+  }
+
   void collect_simplices() {
     const GroupNumbers<double> numbers(features_.regions);
     std::map<double, Elements> by_region;
     for (std::size_t i = 0; i < mesh_.simplices.size(); ++i) {
-      const auto& t = mesh_.simplices[i];
       const double region = features_.regions.empty() ? 0 : features_.regions[i] + 0.0;
-      by_region[region].emplace_back(t.begin(), t.end());
+      visit_nodes<D>(mesh_.simplices[i], how_, [&](const auto& nodes) {
+        by_region[region].push_back(in_order_of_gmsh(nodes));
+      });
     }
     if (by_region.empty()) by_region[0];  // the nodes need an entity
     for (auto& [region, elements] : by_region) {
-      const std::string name = region == 0 ? "" : "region " + text::to_text(region);
-      add_entity({D,
-                  D == 2 ? kTriangle : kTetrahedron,
-                  name,
-                  numbers.of(region),
-                  {},
-                  std::move(elements)});
+      add_entity(
+          {D,
+           D == 2 ? type(kTriangle, kQuadraticTriangle) : type(kTetrahedron, kQuadraticTetrahedron),
+           region == 0 ? "" : features_.names.of_region(region),
+           numbers.of(region),
+           {},
+           std::move(elements)});
     }
   }
 
   // Edges or faces by their markers.
-  template <class Parts, class CornersOf>
-  void collect_parts(std::size_t dimension, int type, const Parts& parts, CornersOf&& corners_of) {
+  template <class Parts>
+  void collect_parts(std::size_t dimension, int type, const Parts& parts) {
     std::map<std::int64_t, Elements> by_marker;
     for (const auto& part : parts) {
-      const auto corners = corners_of(part);
-      by_marker[part.marker].emplace_back(corners.begin(), corners.end());
+      visit_nodes<D>(part, how_, [&](const auto& nodes) {
+        by_marker[part.marker].push_back(in_order_of_gmsh(nodes));
+      });
     }
     std::vector<std::int64_t> markers;
     for (const auto& [marker, elements] : by_marker) markers.push_back(marker);
     const GroupNumbers<std::int64_t> numbers(markers);
     for (auto& [marker, elements] : by_marker) {
-      const std::string name = marker == 0 ? "" : "marker " + std::to_string(marker);
+      const std::string name = marker == 0 ? "" : name_of(dimension, marker);
       add_entity({dimension, type, name, numbers.of(marker), {}, std::move(elements)});
     }
   }
@@ -108,7 +137,7 @@ class MshWriter {
   }
 
   // What has no group yet gets the number above all others.
-  static void group_rest(std::vector<Entity>& entities, const char* name) {
+  static void group_rest(std::vector<Entity>& entities, const std::string& name) {
     std::int32_t highest = 0;
     for (const Entity& e : entities) highest = std::max(highest, e.number);
     for (Entity& e : entities) {
@@ -142,12 +171,44 @@ class MshWriter {
   void write_names() {
     if (groups() == 0) return;
     file_ << "$PhysicalNames\n" << groups() << '\n';
-    for_each_entity([&](const Entity& e, std::size_t) {
-      if (e.group.empty()) return;
-      file_ << e.dimension << ' ' << e.number << " \"" << e.group << "\"\n";
-    });
+    for (const std::size_t d :
+         D == 2 ? std::vector<std::size_t>{1, 2} : std::vector<std::size_t>{2, 3, 1}) {
+      for (const Entity& e : entities_[d]) {
+        if (e.group.empty()) continue;
+        file_ << e.dimension << ' ' << e.number << " \"" << e.group << "\"\n";
+      }
+    }
     file_ << "$EndPhysicalNames\n";
   }
+
+  // --- Version 2.2: rows `number x y z`, and `number type 2 group entity node...` --------------
+
+  void write_old_nodes() {
+    file_ << "$Nodes\n" << mesh_.vertices.size() << '\n';
+    for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) {
+      file_ << i + kFirst << ' ';
+      write_in_space(mesh_.vertices[i], file_);
+      file_ << '\n';
+    }
+    file_ << "$EndNodes\n";
+  }
+
+  void write_old_elements() {
+    file_ << "$Elements\n"
+          << mesh_.simplices.size() + features_.faces.size() + features_.edges.size() << '\n';
+    std::size_t number = kFirst;
+    for_each_entity([&](const Entity& e, std::size_t tag) {
+      for (const auto& element : e.elements) {
+        file_ << number++ << ' ' << e.type << " 2 " << (e.group.empty() ? 0 : e.number) << ' '
+              << tag;
+        for (const std::uint32_t v : element) file_ << ' ' << v + kFirst;
+        file_ << '\n';
+      }
+    });
+    file_ << "$EndElements\n";
+  }
+
+  // --- Version 4.1 -----------------------------------------------------------------------------
 
   void write_entities() {
     file_ << "$Entities\n0";
@@ -200,6 +261,7 @@ class MshWriter {
 
   const Mesh<D>& mesh_;
   const MeshFeatures& features_;
+  const WriteHow<D>& how_;
   TextFile& file_;
   std::array<std::vector<Entity>, D + 1> entities_;  // by dimension
 };
@@ -207,13 +269,14 @@ class MshWriter {
 }  // namespace
 
 template <int D>
-void write_msh(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file) {
-  MshWriter<D>(mesh, features, file).write();
+void write_msh(const Mesh<D>& mesh, const MeshFeatures& features, const WriteHow<D>& how,
+               TextFile& file) {
+  MshWriter<D>(mesh, features, how, file).write();
 }
 
-template void write_msh(const Mesh<2>&, const MeshFeatures&, TextFile&);
+template void write_msh(const Mesh<2>&, const MeshFeatures&, const WriteHow<2>&, TextFile&);
 #ifndef MESHER_PLANE_ONLY
-template void write_msh(const Mesh<3>&, const MeshFeatures&, TextFile&);
+template void write_msh(const Mesh<3>&, const MeshFeatures&, const WriteHow<3>&, TextFile&);
 #endif
 
 }  // namespace mesher

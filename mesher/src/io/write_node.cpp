@@ -41,6 +41,24 @@ void add_corners(const std::array<std::uint32_t, N>& corners, TextFile& file) {
   });
 }
 
+// Of second order in the order of Triangle (each midpoint across from a corner) and of TetGen (the
+// midpoints of cd, ad, ab, bc, bd, ca). Ours are those of ab, bc, ca, ad, bd, cd.
+void add_ordered(const std::array<std::uint32_t, 6>& n, TextFile& file) {
+  add_corners(std::array{n[0], n[1], n[2], n[4], n[5], n[3]}, file);
+}
+[[maybe_unused]] void add_ordered(const std::array<std::uint32_t, 10>& n, TextFile& file) {
+  add_corners(std::array{n[0], n[1], n[2], n[3], n[9], n[7], n[4], n[5], n[8], n[6]}, file);
+}
+template <std::size_t N>
+void add_ordered(const std::array<std::uint32_t, N>& nodes, TextFile& file) {
+  add_corners(nodes, file);
+}
+
+template <int D, class Part>
+void add_nodes(const Part& part, const WriteHow<D>& how, TextFile& file) {
+  visit_nodes<D>(part, how, [&](const auto& nodes) { add_ordered(nodes, file); });
+}
+
 }  // namespace
 
 template <int D>
@@ -60,23 +78,26 @@ template void write_node(const Mesh<3>&, const MeshFeatures&, TextFile&);
 #endif
 
 template <int D>
-void write_ele(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file) {
+void write_ele(const Mesh<D>& mesh, const MeshFeatures& features, const WriteHow<D>& how,
+               TextFile& file) {
   const bool has_regions = !features.regions.empty();
-  file << mesh.simplices.size() << ' ' << D + 1 << (has_regions ? " 1\n" : " 0\n");
+  const std::size_t nodes = how.second == nullptr ? D + 1 : SecondOrder<D>::kCellNodes;
+  file << mesh.simplices.size() << ' ' << nodes << (has_regions ? " 1\n" : " 0\n");
   for (std::size_t i = 0; i < mesh.simplices.size(); ++i) {
     file << i + kFirst;
-    add_corners(mesh.simplices[i], file);
+    add_nodes<D>(mesh.simplices[i], how, file);
     if (has_regions) file << ' ' << features.regions[i];
     file << '\n';
   }
 }
 
-template void write_ele(const Mesh<2>&, const MeshFeatures&, TextFile&);
+template void write_ele(const Mesh<2>&, const MeshFeatures&, const WriteHow<2>&, TextFile&);
 #ifndef MESHER_PLANE_ONLY
-template void write_ele(const Mesh<3>&, const MeshFeatures&, TextFile&);
+template void write_ele(const Mesh<3>&, const MeshFeatures&, const WriteHow<3>&, TextFile&);
 #endif
 
-void write_face(const Mesh<3>& mesh, const MeshFeatures& features, TextFile& file) {
+void write_face(const Mesh<3>& mesh, const MeshFeatures& features, const WriteHow<3>& how,
+                TextFile& file) {
   std::vector<MeshFace> faces = features.faces;
   if (features.empty()) {
     for (const auto& corners : boundary_faces(mesh)) faces.push_back({corners, {}, 1});
@@ -84,18 +105,20 @@ void write_face(const Mesh<3>& mesh, const MeshFeatures& features, TextFile& fil
   file << faces.size() << " 1\n";
   for (std::size_t i = 0; i < faces.size(); ++i) {
     file << i + kFirst;
-    add_corners(faces[i].corners, file);
+    add_nodes<3>(faces[i], how, file);
     file << ' ' << faces[i].marker;
     if (faces[i].polygon) file << ' ' << static_cast<std::int64_t>(*faces[i].polygon);
     file << '\n';
   }
 }
 
-void write_edge(const MeshFeatures& features, TextFile& file) {
+void write_edge(const MeshFeatures& features, const WriteHow<3>& how, TextFile& file) {
   file << features.edges.size() << " 1\n";
   std::size_t number = kFirst;
   for (const MeshEdge& e : features.edges) {
-    file << number++ << ' ' << e.low + kFirst << ' ' << e.high + kFirst << ' ' << e.marker;
+    file << number++;
+    add_nodes<3>(e, how, file);
+    file << ' ' << e.marker;
     if (e.line) file << ' ' << static_cast<std::int64_t>(*e.line);
     file << '\n';
   }

@@ -11,52 +11,69 @@ namespace mesher {
 
 namespace {
 
-using Write = void (*)(const Mesh<3>&, const MeshFeatures&, TextFile&);
+using How = WriteHow<3>;
+using Write = void (*)(const Mesh<3>&, const MeshFeatures&, const How&, TextFile&);
 
 template <auto kWrite>
-void write_boundary(const Mesh<3>& mesh, const MeshFeatures&, TextFile& file) {
+void write_boundary(const Mesh<3>& mesh, const MeshFeatures&, const How&, TextFile& file) {
   kWrite(mesh, file);
+}
+template <void (*kWrite)(const Mesh<3>&, const MeshFeatures&, TextFile&)>
+void write_first_order(const Mesh<3>& mesh, const MeshFeatures& features, const How&,
+                       TextFile& file) {
+  kWrite(mesh, features, file);
 }
 
 constexpr std::pair<std::string_view, Write> kSingleFiles[] = {
     {".vtu", write_vtu<3>},
     {".vtk", write_vtk<3>},
     {".msh", write_msh<3>},
-    {".mesh", write_medit<3>},
+    {".inp", write_inp<3>},
+    {".su2", write_first_order<write_su2<3>>},
+    {".mesh", write_first_order<write_medit<3>>},
     {".off", write_boundary<write_surface_off>},
     {".obj", write_boundary<write_surface_obj>},
     {".stl", write_boundary<write_surface_stl>},
-    {".svg", [](const Mesh<3>& mesh, const MeshFeatures& features, TextFile& file) {
+    {".svg", [](const Mesh<3>& mesh, const MeshFeatures& features, const How&, TextFile& file) {
        write_svg(mesh, features, svg_view(mesh), file);
      }}};
 
-MeshWriter<3> open_node(OutputFiles& files, const std::string& path, MeshFiles content) {
+MeshWriter<3> open_node(OutputFiles& files, const std::string& path, MeshFiles content,
+                        const WriteOptions& options) {
   TextFile& node = files.open(path);
   TextFile& ele = files.open(text::with_extension(path, ".ele"));
   TextFile& face = files.open(text::with_extension(path, ".face"));
   TextFile* const edge =
       content == MeshFiles::plain ? nullptr : &files.open(text::with_extension(path, ".edge"));
-  return MeshWriter<3>(
-      [&node, &ele, &face, edge](const Mesh<3>& mesh, const MeshFeatures& features) {
+  return mesh_writer<3>(
+      options, [&node, &ele, &face, edge](const Mesh<3>& mesh, const MeshFeatures& features,
+                                          const How& how) {
         write_node(mesh, features, node);
-        write_ele(mesh, features, ele);
-        write_face(mesh, features, face);
-        if (edge != nullptr) write_edge(features, *edge);
+        write_ele(mesh, features, how, ele);
+        write_face(mesh, features, how, face);
+        if (edge != nullptr) write_edge(features, how, *edge);
       });
 }
 
 }  // namespace
 
 template <>
-MeshWriter<3> open_mesh<3>(OutputFiles& files, const std::string& path, MeshFiles content) {
+MeshWriter<3> open_mesh<3>(OutputFiles& files, const std::string& path, MeshFiles content,
+                           const WriteOptions& options) {
   const std::string extension = text::extension(path);
-  if (extension == ".node") return open_node(files, path, content);
+  if (extension == ".node") {
+    require_order(options.order, path);
+    return open_node(files, path, content, options);
+  }
   for (const auto& [known, write] : kSingleFiles) {
     if (extension != known) continue;
+    require_order(options.order, path);
+    WriteOptions own = options;
+    if (extension == ".svg") own.order = 1;
     TextFile& file = files.open(path);
-    return MeshWriter<3>([write = write, &file](const Mesh<3>& mesh, const MeshFeatures& features) {
-      write(mesh, features, file);
-    });
+    return mesh_writer<3>(
+        own, [write = write, &file](const Mesh<3>& mesh, const MeshFeatures& features,
+                                    const How& how) { write(mesh, features, how, file); });
   }
   throw Error(ErrorCode::unknown_format,
               "meshes of tetrahedra are written to .node (with .ele and .face), .vtu, .vtk, .msh "
@@ -65,16 +82,16 @@ MeshWriter<3> open_mesh<3>(OutputFiles& files, const std::string& path, MeshFile
               {path});
 }
 
-void write_mesh(const Mesh<3>& mesh, const std::string& path) {
+void write_mesh(const Mesh<3>& mesh, const std::string& path, const WriteOptions& options) {
   OutputFiles files;
-  open_mesh<3>(files, path)(mesh);
+  open_mesh<3>(files, path, MeshFiles::plain, options)(mesh);
   files.commit();
 }
 
-void write_mesh(const MeshData<3>& mesh, const std::string& path) {
+void write_mesh(const MeshData<3>& mesh, const std::string& path, const WriteOptions& options) {
   OutputFiles files;
-  const bool plain = mesh.features.empty();
-  open_mesh<3>(files, path, plain ? MeshFiles::plain : MeshFiles::features)(mesh, mesh.features);
+  const MeshFiles content = mesh.features.empty() ? MeshFiles::plain : MeshFiles::features;
+  open_mesh<3>(files, path, content, options)(mesh, mesh.features);
   files.commit();
 }
 

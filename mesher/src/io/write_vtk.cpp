@@ -38,7 +38,8 @@ void write_cell_data(const Mesh<D>& mesh, const MeshFeatures& features, TextFile
 }  // namespace
 
 template <int D>
-void write_vtk(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file) {
+void write_vtk(const Mesh<D>& mesh, const MeshFeatures& features, const WriteHow<D>& how,
+               TextFile& file) {
   const std::size_t cells = cell_count(mesh, features);
   file << "# vtk DataFile Version 3.0\nmesh\nASCII\nDATASET UNSTRUCTURED_GRID\n";
   if (D == 3 && mesh.simplices.empty()) {  // no cell tells the dimension
@@ -50,22 +51,22 @@ void write_vtk(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file
     file << '\n';
   }
   std::size_t numbers = 0;
-  for_each_cell(mesh, features, [&](int, const auto& corners) { numbers += 1 + corners.size(); });
+  for_each_cell(mesh, features, how, [&](int, const auto& nodes) { numbers += 1 + nodes.size(); });
   file << "CELLS " << cells << ' ' << numbers << '\n';
-  for_each_cell(mesh, features, [&](int, const auto& corners) {
-    file << corners.size();
-    for (const std::uint32_t v : corners) file << ' ' << v;
+  for_each_cell(mesh, features, how, [&](int, const auto& nodes) {
+    file << nodes.size();
+    for (const std::uint32_t v : nodes) file << ' ' << v;
     file << '\n';
   });
   file << "CELL_TYPES " << cells << '\n';
-  for_each_cell(mesh, features, [&](int type, const auto&) { file << type << '\n'; });
+  for_each_cell(mesh, features, how, [&](int type, const auto&) { file << type << '\n'; });
   write_point_data(mesh, features, file);
   write_cell_data(mesh, features, file);
 }
 
-template void write_vtk(const Mesh<2>&, const MeshFeatures&, TextFile&);
+template void write_vtk(const Mesh<2>&, const MeshFeatures&, const WriteHow<2>&, TextFile&);
 #ifndef MESHER_PLANE_ONLY
-template void write_vtk(const Mesh<3>&, const MeshFeatures&, TextFile&);
+template void write_vtk(const Mesh<3>&, const MeshFeatures&, const WriteHow<3>&, TextFile&);
 #endif
 
 }  // namespace mesher

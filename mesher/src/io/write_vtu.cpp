@@ -43,19 +43,20 @@ void write_vertices(const Mesh<D>& mesh, const MeshFeatures& features, TextFile&
 }
 
 template <int D>
-void write_cells(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file) {
+void write_cells(const Mesh<D>& mesh, const MeshFeatures& features, const WriteHow<D>& how,
+                 TextFile& file) {
   file << "<Cells>\n<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n";
-  for_each_cell(mesh, features, [&](int, const auto& corners) {
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      file << corners[i] << (i + 1 < corners.size() ? ' ' : '\n');
+  for_each_cell(mesh, features, how, [&](int, const auto& nodes) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      file << nodes[i] << (i + 1 < nodes.size() ? ' ' : '\n');
     }
   });
   file << "</DataArray>\n<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n";
   std::size_t offset = 0;
-  for_each_cell(mesh, features,
-                [&](int, const auto& corners) { file << (offset += corners.size()) << '\n'; });
+  for_each_cell(mesh, features, how,
+                [&](int, const auto& nodes) { file << (offset += nodes.size()) << '\n'; });
   file << "</DataArray>\n<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">\n";
-  for_each_cell(mesh, features, [&](int type, const auto&) { file << type << '\n'; });
+  for_each_cell(mesh, features, how, [&](int type, const auto&) { file << type << '\n'; });
   file << "</DataArray>\n</Cells>\n";
 }
 
@@ -63,7 +64,8 @@ void write_cells(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& fi
 
 // The vertices' kind: 0 Steiner, 1 boundary grid, 2 input, 3 on a line.
 template <int D>
-void write_vtu(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file) {
+void write_vtu(const Mesh<D>& mesh, const MeshFeatures& features, const WriteHow<D>& how,
+               TextFile& file) {
   file << "<?xml version=\"1.0\"?>\n"
           "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
           "header_type=\"UInt64\">\n<UnstructuredGrid>\n";
@@ -74,13 +76,13 @@ void write_vtu(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file
   file << "<Piece NumberOfPoints=\"" << mesh.vertices.size() << "\" NumberOfCells=\""
        << cell_count(mesh, features) << "\">\n";
   write_vertices(mesh, features, file);
-  write_cells(mesh, features, file);
+  write_cells(mesh, features, how, file);
   file << "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
-template void write_vtu(const Mesh<2>&, const MeshFeatures&, TextFile&);
+template void write_vtu(const Mesh<2>&, const MeshFeatures&, const WriteHow<2>&, TextFile&);
 #ifndef MESHER_PLANE_ONLY
-template void write_vtu(const Mesh<3>&, const MeshFeatures&, TextFile&);
+template void write_vtu(const Mesh<3>&, const MeshFeatures&, const WriteHow<3>&, TextFile&);
 #endif
 
 }  // namespace mesher

@@ -193,6 +193,7 @@ Repaired<D> repair_file(GraphFile<D> file, const std::optional<Box<D>>& given) {
   const Drawn<D> drawn = detail::draw_points(file.graph.points, drawing);
   arrange(file.graph, drawn, drawing);
   Repaired<D> repaired = detail::redraw(file, drawing, drawn);
+  repaired.file.graph.names = file.graph.names;
   if constexpr (D == 3) {  // in the plane arrange() leaves nothing to be found
     require_sound(repaired.file.graph, given ? *given : snapped_domain<D>(places_of(file.graph)));
   }

@@ -310,7 +310,9 @@ TEST_CASE("files of Gmsh are read: entities with groups, nodes in blocks, points
   CHECK(mesh.features.regions == std::vector<double>{7});
   REQUIRE(mesh.features.edges.size() == 1);
   CHECK(mesh.features.edges[0].marker == 3);
-  CHECK(mesh.notes.size() == 2);
+  CHECK(mesh.features.names.facets == std::map<std::int64_t, std::string>{{3, "the_wall"}});
+  CHECK(mesh.features.names.regions == std::map<double, std::string>{{7, "inner_part"}});
+  CHECK(mesh.notes.size() == 3);
 }
 
 TEST_CASE("legacy VTK of version 5 and scalars are read") {
@@ -381,7 +383,7 @@ TEST_CASE("what is no mesh is refused with the code and the place of the mistake
       {"m.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nVECTORS v\n",
        "unsupported@5:1"},
       {"m.msh", "", "truncated@1:1"},
-      {"m.msh", "$MeshFormat\n2.2 0 8\n", "unsupported@2:1"},
+      {"m.msh", "$MeshFormat\n3.0 0 8\n", "unsupported@2:1"},
       {"m.msh", "$MeshFormat\n4.1 2 8\n", "bad_header@2:5"},
       {"m.msh", msh + "$Nodes\n1 2 1 2\n2 1 0 2\n1\n1\n0 0 0\n1 0 0\n$EndNodes\n",
        "repeated_id@8:1"},

@@ -334,13 +334,13 @@ TEST_CASE("every geometry of GeoJSON is read, single, as a feature or in a colle
   CHECK(points(both) == 3);
   CHECK(both.graph.polylines.front().points == ids({2, 1, 3}));
   const std::string feature =
-      "{\"type\": \"Feature\", \"properties\": {\"marker\": 5, \"name\": \"pier\"}, "
+      "{\"type\": \"Feature\", \"properties\": {\"marker\": 5, \"kind\": \"pier\"}, "
       "\"geometry\": " +
       line + "}";
   const auto marked = read("a.geojson", feature);
   CHECK(marked.graph.polylines.front().marker == 5);
   CHECK(marked.graph.points.front().marker == 5);
-  CHECK(notes_of(marked) == std::vector<std::string>{"the property 'name' is not used"});
+  CHECK(notes_of(marked) == std::vector<std::string>{"the property 'kind' is not used"});
   const auto all = read(
       "a.geojson", "{\"type\": \"FeatureCollection\", \"bbox\": [0, 0, 1, 1], \"features\": [" +
                        feature + ",\n" + feature +
@@ -349,7 +349,7 @@ TEST_CASE("every geometry of GeoJSON is read, single, as a feature or in a colle
   CHECK(all.graph.polylines.size() == 2);
   CHECK(all.location_of_polyline(1).line == 2);
   CHECK(notes_of(all) == std::vector<std::string>{"the member 'bbox' is not used",
-                                                  "the property 'name' is not used (2 times)",
+                                                  "the property 'kind' is not used (2 times)",
                                                   "a feature without geometry"});
 }
 

@@ -204,7 +204,9 @@ TEST_CASE("what is no mesh of tetrahedra is refused with its place") {
   const std::string vtk = kVtkPoints, msh = kMsh, medit = kMedit;
   const Refused all[] = {
       {"m.ele", "1 3\n1 1 2 3\n", "bad_dimension@1:3"},
-      {"m.ele", "1 10\n1 0 1 2 3 4 4 4 4 4 4\n", "bad_dimension@1:3"},
+      {"m.ele", "1 5\n1 0 1 2 3 4\n", "bad_dimension@1:3"},
+      {"m.ele", "1 10\n1 0 1 2 3 4 4 4 4 4\n", "truncated@2:20"},
+      {"m.ele", "1 10\n1 0 1 2 3 4 4 4 4 4 9\n", "bad_mesh@2:21"},
       {"m.ele", "1 4\n1 0 1 2 2\n", "bad_mesh@2:3"},
       {"m.ele", "1 4\n1 0 1 2 5\n", "bad_mesh@2:9"},
       {"m.ele", "1 4\n1 0 1 2\n", "truncated@2:8"},

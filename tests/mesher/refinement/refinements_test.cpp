@@ -204,7 +204,7 @@ TEMPLATE_TEST_CASE_SIG("a refinement refuses what gap balls refuse, by name", ""
   CHECK(refusal<3, B>({{0.5, 0.5, 0.5}, {0.5, 0.5, 0.5 + 0x1p-52}}, options) ==
         ErrorCode::too_close);
   Options<3> limited = options;
-  limited.max_measure = 1;
+  limited.max_measure = -1;
   CHECK(refusal<3, B>({}, limited) == ErrorCode::bad_option);
   Options<3> rule = options;
   rule.rule = mesher::Rule::voronoi_aspect;
