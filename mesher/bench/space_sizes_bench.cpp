@@ -3,11 +3,12 @@
 //   space_sizes_bench [SURFACE V]...
 //
 // The volume V is 1e-2, 1e-3 and 1e-4 of what the polygons enclose; of surfaces that are named (in
-// .off, .obj, .ply or .stl) it is given. One JSON line each: for each algorithm (of surfaces, without
-// gap-balls) the vertices in that, the `largest` volume of its tetrahedra over V, and seconds of the
-// process from the graph to the mesh, with what says where limits count; and, where the Debian
-// package tetgen (1.5) is installed, TetGen's vertices and the seconds that it says it ran, without
-// files. Its options are -pq2.0O0/0NEFaV. In turns, kRounds times; seconds are medians.
+// .off, .obj, .ply or .stl) it is given. One JSON line each: for each algorithm (of surfaces,
+// without gap-balls) the vertices in that, the `largest` volume of its tetrahedra over V, and
+// seconds of the process from the graph to the mesh, with what says where limits count; and, where
+// the Debian package tetgen (1.5) is installed, TetGen's vertices and the seconds that it says it
+// ran, without files. Its options are -pq2.0O0/0NEFaV. In turns, kRounds times; seconds are
+// medians.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -131,10 +131,11 @@ void add_mesh(CLI::App& app) {
           "split where that makes these larger; 10 to 12 is what solvers want. Few remain,\n"
           "but where features meet at small angles. For refine and svr")
       ->type_name("D");
-  mesh->add_option("--growth", args->growth,
-                   "Sizes grow by at most this factor from one simplex to the next, 1.05 to 100:\n"
-                   "at a distance d from edges of length e simplices are about as large as regular\n"
-                   "ones with edges of e + (G - 1) d, or smaller. For refine and svr")
+  mesh->add_option(
+          "--growth", args->growth,
+          "Sizes grow by at most this factor from one simplex to the next, 1.05 to 100:\n"
+          "at a distance d from edges of length e simplices are about as large as regular\n"
+          "ones with edges of e + (G - 1) d, or smaller. For refine and svr")
       ->type_name("G");
   mesh->footer(
       std::string(

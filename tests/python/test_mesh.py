@@ -22,6 +22,13 @@ def areas(points, cells):
 
 
 class Plane(unittest.TestCase):
+    def test_growth(self):
+        points = np.concatenate((SQUARE, [(.5, .5), (.51, .5)]))
+        counts = [len(lm.mesh(points, polylines=RING, growth=g).cells) for g in (None, 1.5, 1.2)]
+        self.assertTrue(counts[0] < counts[1] < counts[2], counts)
+        with self.assertRaises(lm.Error):
+            lm.mesh(points, growth=1.01)
+
     def test_example_of_the_package(self):
         rng = np.random.default_rng(1)
         inner = rng.uniform(0.05, 0.95, (40, 2))

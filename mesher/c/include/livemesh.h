@@ -370,6 +370,7 @@ typedef struct lm_options {
   int32_t reserved;
   size_t box_limits_count;
   const lm_box_limits* box_limits;
+  double growth; /* of sizes from one cell to the next, 1.05 to 100; 0: any. Not for live meshes */
 } lm_options;
 
 /* Meshes a graph, once. options, control: may be NULL. */

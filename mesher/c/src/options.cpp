@@ -56,6 +56,7 @@ mesher::Options<D> options_of(const lm_options* user) {
   } else if (given.min_dihedral != 0) {
     throw Failure(LM_BAD_ARGUMENT, "options->min_dihedral is for space alone");
   }
+  options.growth = given.growth;
   options.max_measure = given.max_measure;
   options.sizes = sizes_of<D>(given.sizes);
   options.max_vertices = given.max_vertices;

@@ -348,7 +348,8 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
          point_markers: Any = None, min_angle: Optional[float] = None,
          rho: Optional[float] = None, min_dihedral: Optional[float] = None,
          max_area: Optional[float] = None, max_volume: Optional[float] = None, size: Any = None,
-         repair: bool = False, merge: bool = True, region_limits: bool = True,
+         growth: Optional[float] = None, repair: bool = False, merge: bool = True,
+         region_limits: bool = True,
          no_flat: bool = True, extent: str = "enclosed", bounds: Any = None,
          algorithm: str = "automatic", order: int = 1,
          max_vertices: int = 0, progress: Optional[Callable[[_c.Progress], Any]] = None,
@@ -363,7 +364,7 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
     min_angle: degrees, at most 29.6, 20.7 by default; or rho: bound of circumradius over shortest
     edge. max_area, max_volume: of a cell. size: the edge length of a cell: a number, a function of
     n x d arrays (sampled), (points, sizes), or `Sizes`. region_limits: whether the limits of
-    regions count. no_flat: in space, tetrahedra without volume, which Delaunay meshes have, are
+    regions count. growth: sizes grow by at most this factor from one cell to the next, 1.05 to 100. no_flat: in space, tetrahedra without volume, which Delaunay meshes have, are
     removed where that is possible. extent: "enclosed" or "box". bounds: 2 x d, the box in which
     points may lie. algorithm: "automatic", "refine", "svr", "gap_balls". max_vertices: more are an
     error. order: 2 for a mesh of second order, see `Mesh`.
@@ -395,6 +396,7 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
     options, sizes = options_of(graph.dimension, lo, hi, bounds, min_angle, rho, min_dihedral,
                                 max_area, max_volume, size, region_limits, max_vertices, extent,
                                 algorithm, deadline)
+    options.growth = _at(growth, 0, "growth")
     options.no_flat = int(no_flat)
     if timeout is not None:
         timeout = max(deadline - time.monotonic(), 0.)

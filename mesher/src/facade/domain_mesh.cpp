@@ -108,7 +108,8 @@ Mesh<D> refine(const Graph<D>& graph, const Options<D>& options, Extent extent,
     return refine<D>(places_of(graph), options, settings, ids, stats, control);
   }
   return with_parts(graph, [&](const auto&... parts) {
-    return refine(parts..., options, refined(graph, extent, options.region_areas), settings, ids, stats, control);
+    return refine(parts..., options, refined(graph, extent, options.region_areas), settings, ids,
+                  stats, control);
   });
 }
 
@@ -120,7 +121,8 @@ Mesh<D> svr(const Graph<D>& graph, const Options<D>& options, Extent extent,
     return svr<D>(places_of(graph), options, settings, ids, stats, control);
   }
   return with_parts(graph, [&](const auto&... parts) {
-    return svr(parts..., options, refined(graph, extent, options.region_areas), settings, ids, stats, control);
+    return svr(parts..., options, refined(graph, extent, options.region_areas), settings, ids,
+               stats, control);
   });
 }
 

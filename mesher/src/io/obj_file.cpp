@@ -22,7 +22,7 @@ constexpr std::string_view kNotedWords[] = {"vt", "vn",     "vp",     "g",  "o",
 class ObjReader {
  public:
   ObjReader(const std::string& path, std::string_view content, CoordinateRule rule)
-      : lines_(path, content), rule_(rule) {}
+      : lines_(path, content, text::Continued::by_backslash), rule_(rule) {}
 
   ObjFile read() {
     while (lines_.next()) read_statement(lines_.line());

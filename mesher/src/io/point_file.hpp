@@ -20,6 +20,7 @@ struct PointFile {
   std::vector<long> lines;    ///< from 1; 0 where a file has no lines
   std::vector<Note> notes{};  ///< what the file holds that is not used
 
+  void add(const std::vector<Note>& more) { notes.insert(notes.end(), more.begin(), more.end()); }
   [[nodiscard]] FileLocation location(std::size_t i) const {
     return {file, lines[i], lines[i] > 0 ? 1 : 0};
   }

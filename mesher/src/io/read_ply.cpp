@@ -177,7 +177,7 @@ class PlyReader {
     if (!found) throw Error(ErrorCode::bad_header, "no element vertex", {source_.file()});
     require_end();
     require_corners();
-    out_.rows.notes = notes_.notes();
+    out_.rows.add(notes_.notes());
     return std::move(out_);
   }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -108,16 +109,29 @@ PointFile<D> read_any(const std::string& path) {
               {path});
 }
 
+// Once for a file.
+void note_rounded(PointFile<3>& rows, const FileLocation& place) {
+  const std::string what = "a coordinate below 2^-100 is taken as 0";
+  for (const Note& note : rows.notes) {
+    if (note.text == what) return;
+  }
+  rows.notes.push_back({what, place});
+}
+
 }  // namespace
 
 void add_vertex(PointFile<3>& rows, Point<3> point, const FileLocation& place) {
   for (double& x : point) {
     x += 0.0;  // no negative zero
     if (text::is_coordinate(x)) continue;
+    if (without_noise(x) == 0) {
+      x = 0;
+      note_rounded(rows, place);
+      continue;
+    }
     throw Error(ErrorCode::magnitude,
                 "point " + std::to_string(rows.points.size() + 1) + " at " +
-                    text::to_text<3>(point) +
-                    ": a coordinate is neither 0 nor of magnitude 2^-100 to 2^100",
+                    text::to_text<3>(point) + ": a coordinate is beyond 2^100",
                 place);
   }
   add_row<3>(rows, point, place.line);

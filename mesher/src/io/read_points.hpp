@@ -8,6 +8,7 @@
 
 #include "io/point_file.hpp"
 #include "mesher/names.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 
@@ -62,8 +63,25 @@ void add_row(PointFile<D>& rows, const Point<D>& point, long line) {
   rows.lines.push_back(line);
 }
 
-/// The same of a place whose coordinates have not been looked at; -0 becomes 0.
-/// Throws: Error(magnitude) of `place`.
+/// 0 in place of a coordinate below 2^-100.
+[[nodiscard]] inline double without_noise(double x) noexcept {
+  return x < 0x1p-100 && x > -0x1p-100 ? 0 : x;
+}
+
+/// The coordinates of such a vertex, in the fields from `first` on, as they are in the file.
+/// Throws: Error (bad_number, not_finite, magnitude: beyond 2^100).
+[[nodiscard]] inline Point<3> read_vertex_place(const text::Line& line, std::size_t first) {
+  Point<3> at;
+  for (std::size_t i = 0; i < 3; ++i) {
+    at[i] = line.finite(first + i);
+    if (without_noise(at[i]) != 0) at[i] = line.coordinate(first + i);
+  }
+  return at;
+}
+
+/// As add_row(), of a vertex of a surface or a grid, whose coordinates have not been looked at:
+/// what is below 2^-100, noise of the program that has made it, becomes 0, with a note. Throws:
+/// Error(magnitude) of `place`.
 void add_vertex(PointFile<3>& rows, Point<3> point, const FileLocation& place);
 
 }  // namespace mesher

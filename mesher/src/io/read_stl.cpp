@@ -26,7 +26,7 @@ class Corners {
 
   void add(const Point<3>& at, const FileLocation& place) {
     const auto number = static_cast<std::uint32_t>(out_.rows.points.size());
-    const auto [it, fresh] = number_at_.try_emplace(unsigned_zeros(at), number);
+    const auto [it, fresh] = number_at_.try_emplace(without_noise(at), number);
     if (fresh) add_vertex(out_.rows, at, place);
     if (out_.faces.empty() || out_.faces.back().corners.size() == 3) {
       out_.faces.push_back({{}, {place.line, place.column}});
@@ -36,8 +36,9 @@ class Corners {
   Surface take() { return std::move(out_); }
 
  private:
-  static Point<3> unsigned_zeros(Point<3> p) {
-    for (double& x : p) x += 0.0;
+  // And without negative zeros.
+  static Point<3> without_noise(Point<3> p) {
+    for (double& x : p) x = mesher::without_noise(x);
     return p;
   }
   Surface out_;
@@ -108,7 +109,7 @@ class StlText {
     Surface surface = all_.take();
     NoteCounter notes;
     groups_.mark(surface, notes);
-    surface.rows.notes = notes.notes();
+    surface.rows.add(notes.notes());
     return surface;
   }
 
@@ -149,7 +150,7 @@ class StlText {
       throw line().error(ErrorCode::wrong_count, "a corner is 'vertex x y z'",
                          std::min<std::size_t>(line().size(), 4));
     }
-    all_.add({line().coordinate(1), line().coordinate(2), line().coordinate(3)}, line().place(0));
+    all_.add(read_vertex_place(line(), 1), line().place(0));
   }
 
   text::FieldLines lines_;

@@ -14,8 +14,9 @@
 namespace mesher {
 namespace {
 
-Point<3> read_point(const text::Line& line, std::size_t first) {
-  return {line.coordinate(first), line.coordinate(first + 1), line.coordinate(first + 2)};
+// Adds the vertex in the fields from `first` on.
+void read_point(const text::Line& line, std::size_t first, PointFile<3>& rows) {
+  add_vertex(rows, read_vertex_place(line, first), line.place(first));
 }
 
 // --- .off ------------------------------------------------------------------------------------
@@ -54,7 +55,7 @@ void read_vertex(const text::Line& line, PointFile<3>& rows, NoteCounter& notes)
   if (line.size() < 4 || line.size() > 7 || line.size() == 6) {
     throw line.error(ErrorCode::wrong_count, "a vertex in space is 'v x y z'", line.size());
   }
-  add_row<3>(rows, read_point(line, 1), line.number());
+  read_point(line, 1, rows);
   if (line.size() > 4) notes.add("a weight or colour is not used", line.place(4));
 }
 
@@ -92,7 +93,7 @@ Surface read_off(const std::string& path, Faces use) {
   NoteCounter notes;
   while (std::cmp_less(rows.points.size(), vertices)) {
     const text::Line& line = next_row(lines, 3, rows.points.size(), vertices, "vertices");
-    add_row<3>(rows, read_point(line, 0), line.number());
+    read_point(line, 0, rows);
     if (line.size() > 3) notes.add("a colour or normal is not used", line.place(3));
   }
   for (std::size_t i = 0; std::cmp_less(i, faces); ++i) {
@@ -111,7 +112,7 @@ Surface read_off(const std::string& path, Faces use) {
       notes.add("a face's colour is not used", line.place(corners + 1));
   }
   require_end(lines, "faces");
-  rows.notes = notes.notes();
+  rows.add(notes.notes());
   return out;
 }
 
@@ -123,7 +124,7 @@ Surface read_obj(const std::string& path, Faces use) {
   Surface out{{path, {}, {}, {}}, {}};
   NoteCounter notes;
   FaceGroups groups;
-  for (text::FieldLines lines(path, content); lines.next();) {
+  for (text::FieldLines lines(path, content, text::Continued::by_backslash); lines.next();) {
     const text::Line& line = lines.line();
     if (line[0] == "v") {
       read_vertex(line, out.rows, notes);
@@ -137,7 +138,7 @@ Surface read_obj(const std::string& path, Faces use) {
     }
   }
   groups.mark(out, notes);
-  out.rows.notes = notes.notes();
+  out.rows.add(notes.notes());
   return out;
 }
 

@@ -18,7 +18,7 @@ PointFile<3> points_of(VtkGrid grid) {
     cells = grid.type(i) != VtkCell::vertex && grid.type(i) != VtkCell::poly_vertex;
   }
   if (cells) grid.notes.add("cells other than vertices are not used", grid.types.place);
-  rows.notes = grid.notes.notes();
+  rows.add(grid.notes.notes());
   return rows;
 }
 

@@ -63,7 +63,7 @@ Surface surface_of(VtkGrid grid) {
   if (faces.size() < grid.cell_count()) {
     grid.notes.add("cells other than faces are not used", grid.types.place);
   }
-  surface.rows.notes = grid.notes.notes();
+  surface.rows.add(grid.notes.notes());
   return surface;
 }
 

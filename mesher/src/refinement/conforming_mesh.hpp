@@ -74,7 +74,7 @@ class ConformingMesh : public RefinedMesh<D> {
   bool only_enclosed_, has_regions_ = false;
   std::vector<Point<D>> holes_;
   std::vector<LimitedRegion<D>> regions_;
-  std::vector<double> limits_;  // by the names of regions
+  std::vector<double> limits_;       // by the names of regions
   std::vector<std::uint32_t> star_;  // scratch
 };
 

@@ -42,8 +42,8 @@ void Growth<D>::start(const Kernel& kernel) {
     double longest2 = 0;
     for (std::size_t i = 0; i <= D; ++i) {
       for (std::size_t k = 0; k < i; ++k) {
-        longest2 = std::max(
-            longest2, squared_distance(kernel.place(corners[i]), kernel.place(corners[k])));
+        longest2 = std::max(longest2,
+                            squared_distance(kernel.place(corners[i]), kernel.place(corners[k])));
       }
     }
     const double longest = std::sqrt(longest2);
@@ -75,9 +75,8 @@ void Growth<D>::add_dug(const Kernel& kernel, std::uint32_t v, double size) {
   });
   size_[v] = size;
   bool lowers = false;
-  kernel.for_each_in_link([&](std::uint32_t w) {
-    lowers = lowers || (w != kInfinite && grown(size, w) < size_[w]);
-  });
+  kernel.for_each_in_link(
+      [&](std::uint32_t w) { lowers = lowers || (w != kInfinite && grown(size, w) < size_[w]); });
   if (lowers) lowered_.push({size, v});
 }
 

@@ -66,10 +66,10 @@ class LargeSimplices {
   bool started_ = false;
   std::vector<std::uint32_t> age_;  // by simplex: how many there were
   ComputedBuckets<Entry> queue_;
-  double limit_ = 0, pitch_ = 0;  // of what was taken
-  bool is_graded_ = false;        // and that the limit is one of growth
+  double limit_ = 0, pitch_ = 0;        // of what was taken
+  bool is_graded_ = false;              // and that the limit is one of growth
   double dug_size_ = Limits<D>::kNone;  // of the vertex that will split what was taken
-  std::vector<Place> found_;      // scratch
+  std::vector<Place> found_;            // scratch
   std::vector<Point<D>> places_;
 };
 

@@ -66,9 +66,8 @@ class LineConformity {
   /// Of a vertex that is dug: whether it is in the ball of a piece.
   [[nodiscard]] bool encroaches_on_edges(std::uint32_t v) {
     bool encroaches = false;
-    self().visit_pieces_dug([&](std::uint32_t piece) {
-      encroaches = encroaches || self().encroaches(piece, v);
-    });
+    self().visit_pieces_dug(
+        [&](std::uint32_t piece) { encroaches = encroaches || self().encroaches(piece, v); });
     return encroaches;
   }
 

@@ -50,7 +50,7 @@ struct LimitedRegion {
 template <int D>
 struct RefinedExtent {
   bool only_enclosed = false;
-  std::vector<Point<D>> holes{};  ///< one on a segment, in space on a polygon, is none
+  std::vector<Point<D>> holes{};            ///< one on a segment, in space on a polygon, is none
   std::vector<LimitedRegion<D>> regions{};  ///< the same holds; of several in one the first counts
 };
 

@@ -46,12 +46,12 @@ class RefinedMesh {
 
   struct Settings {
     double rho = 2;
-    double min_dihedral = 0;        // in degrees, in space; 0: any
-    bool thorough = true;           // with slivers: see there
-    std::shared_ptr<const Limits<D>> limits{};  // null: there are none
+    double min_dihedral = 0;                                       // in degrees, in space; 0: any
+    bool thorough = true;                                          // with slivers: see there
+    std::shared_ptr<const Limits<D>> limits{};                     // null: there are none
     double least_limit = std::numeric_limits<double>::infinity();  // of regions
     double growth = 0;                                             // of sizes; 0: any
-    std::size_t most_vertices = 0;  // 0: any number
+    std::size_t most_vertices = 0;                                 // 0: any number
     bool follow_degrees = false;
     int box_steps = 0;                         // along its edges; 0: the grid of gap balls
     std::function<void(std::size_t)> watch{};  // called now and then with the number of vertices
@@ -119,8 +119,9 @@ class RefinedMesh {
   /// Digs a point of the lattice that splits a simplex, which take_large() has returned; nothing:
   /// none suits.
   [[nodiscard]] std::optional<std::uint32_t> dig_on_lattice(std::uint32_t s) {
-    return dig_on_lattice_if(s, [&](const Point<D>& p) { return add_place(p, VertexKind::steiner); },
-                             [&] { drop_place(); }, [](std::uint32_t) { return true; });
+    return dig_on_lattice_if(
+        s, [&](const Point<D>& p) { return add_place(p, VertexKind::steiner); },
+        [&] { drop_place(); }, [](std::uint32_t) { return true; });
   }
   /// The same, where fits(v). `add(p)` and `drop()`: of a place.
   template <class Add, class Drop, class Fits>

@@ -132,6 +132,19 @@ bool is_coordinate(double value) noexcept {
 void Line::split_blanks(long number, std::string_view text) {
   number_ = number;
   fields_.clear();
+  continued_.clear();
+  const char* const end = add_fields(text);
+  text_ = text.substr(0, static_cast<std::size_t>(end - text.data()));
+}
+
+void Line::continue_blanks(long number, std::string_view text) {
+  fields_.back().remove_suffix(1);
+  if (fields_.back().empty()) fields_.pop_back();
+  continued_.push_back({number, text.data()});
+  add_fields(text);
+}
+
+const char* Line::add_fields(std::string_view text) {
   const char* at = text.data();
   const char* const end = at + text.size();
   while (at != end && *at != '#') {
@@ -143,13 +156,14 @@ void Line::split_blanks(long number, std::string_view text) {
     while (at != end && *at != '#' && !is_blank(*at)) ++at;
     fields_.emplace_back(from, static_cast<std::size_t>(at - from));
   }
-  text_ = text.substr(0, static_cast<std::size_t>(at - text.data()));
+  return at;
 }
 
 void Line::split_separated(long number, std::string_view text, char separator) {
   number_ = number;
   text_ = text;
   fields_.clear();
+  continued_.clear();
   bool in_quotes = false;
   for (std::size_t at = 0, begin = 0; at <= text.size(); ++at) {
     if (at < text.size() && text[at] == '"') in_quotes = !in_quotes;
@@ -171,7 +185,11 @@ FilePosition Line::position(std::size_t i) const {
     at = fields_[i].data();
   else if (!fields_.empty())
     at = fields_.back().data() + fields_.back().size();
-  return {number_, at - text_.data() + 1};
+  Start start{number_, text_.data()};
+  for (const Start& next : continued_) {
+    if (next.at <= at) start = next;
+  }
+  return {start.number, at - start.at + 1};
 }
 
 double Line::finite(std::size_t i) const { return parse_finite(fields_[i], failing_at(*this, i)); }
@@ -245,6 +263,9 @@ bool Lines::at_end() const {
 bool FieldLines::next() {
   while (lines_.next()) {
     line_.split_blanks(lines_.number(), lines_.text());
+    while (continued_ == Continued::by_backslash && line_.is_continued() && lines_.next()) {
+      line_.continue_blanks(lines_.number(), lines_.text());
+    }
     if (line_.size() > 0) return true;
   }
   return false;

@@ -49,11 +49,19 @@ class Line {
 
   /// Takes the next line; a '#' and what follows it is dropped. `text` must outlive the fields.
   void split_blanks(long number, std::string_view text);
+  /// Whether the line ends with a backslash: the next one continues it.
+  [[nodiscard]] bool is_continued() const {
+    return !fields_.empty() && fields_.back().ends_with('\\');
+  }
+  /// Takes the line that continues this one, whose backslash goes. Requires: is_continued(), and
+  /// both are parts of one text.
+  void continue_blanks(long number, std::string_view text);
   /// The same with fields between `separator`s, trimmed; a field may stand in double quotes.
   void split_separated(long number, std::string_view text, char separator);
 
   [[nodiscard]] std::size_t size() const { return fields_.size(); }
   [[nodiscard]] std::string_view operator[](std::size_t i) const { return fields_[i]; }
+  /// Of the first, if lines continue it.
   [[nodiscard]] long number() const { return number_; }
   /// The line without comment and outer blanks.
   [[nodiscard]] std::string_view trimmed() const;
@@ -78,9 +86,17 @@ class Line {
   [[nodiscard]] std::int64_t integer_before(std::size_t i, std::size_t size) const;
 
  private:
+  // Returns where a comment begins, or the text's end.
+  const char* add_fields(std::string_view text);
+
+  struct Start {
+    long number;
+    const char* at;
+  };
   std::string file_;
   std::string_view text_;
   long number_ = 0;
+  std::vector<Start> continued_;  // by further lines
   std::vector<std::string_view> fields_;
 };
 
@@ -101,10 +117,14 @@ class Lines {
   long number_ = 0;
 };
 
+/// Whether a backslash at the end of a line continues it.
+enum class Continued : bool { no, by_backslash };
+
 /// The lines of a text that hold fields, split at blanks.
 class FieldLines {
  public:
-  FieldLines(const std::string& file, std::string_view content) : lines_(content), line_(file) {}
+  FieldLines(const std::string& file, std::string_view content, Continued continued = Continued::no)
+      : lines_(content), line_(file), continued_(continued) {}
   /// Goes to the next line with a field. False at the end of the text.
   bool next();
   [[nodiscard]] const Line& line() const { return line_; }
@@ -113,6 +133,7 @@ class FieldLines {
  private:
   Lines lines_;
   Line line_;
+  Continued continued_;
 };
 
 /// The whole text of a file, for readers to whom line ends are blanks. What is passed as `at` or

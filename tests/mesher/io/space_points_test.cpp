@@ -1,6 +1,7 @@
 // Points in space: which files hold them, what is read of surfaces and grids, what is refused.
 #include "space_points.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>
 #include <vector>
@@ -211,7 +212,7 @@ TEST_CASE("bad files of surfaces are refused with the code and the place of the 
       {{"a.off", "OFF\n2 0 0\n0 0 0\n1 1"}, "truncated@4:4"},
       {{"a.off", "OFF\n2 0 0\n0 0\n1 1 1\n"}, "wrong_count@3:4"},
       {{"a.off", "OFF\n1 0 0\n0 nan 0\n"}, "not_finite@3:3"},
-      {{"a.off", "OFF\n1 0 0\n0 1e-40 0\n"}, "magnitude@3:3"},
+      {{"a.off", "OFF\n1 0 0\n0 1e40 0\n"}, "magnitude@3:3"},
       {{"a.off", "OFF\n1 0 0\n0 0 0\n1 1 1\n"}, "wrong_count@4:1"},
       {{"a.off", "OFF\n1 2 0\n0 0 0\n3 0 0 0\n"}, "truncated@4:8"},
       {{"a.off", "OFF\n1 1 0\n0 0 0\n3 0 0\n"}, "wrong_count@4:6"},
@@ -253,7 +254,7 @@ TEST_CASE("bad .ply files are refused with the code and the place of the mistake
       {{"a.ply", head + "0 0 0\n"}, "truncated@9:1"},
       {{"a.ply", head + "0 0 0\n1 1"}, "truncated@9:4"},
       {{"a.ply", head + "0 0 0\n1 nan 1\n"}, "not_finite@9:3"},
-      {{"a.ply", head + "0 0 0\n1 1e-40 1\n"}, "magnitude@9:1"},
+      {{"a.ply", head + "0 0 0\n1 1e37 1\n"}, "magnitude@9:1"},
       {{"a.ply", head + "0 0 0\n1 z 1\n"}, "bad_number@9:3"},
       {{"a.ply", head + "0 0 0\n1 1 1\n2\n"}, "wrong_count@10:1"},
       {{"a.ply", head + "0 0 1\n0 0 1\n"}, "duplicate_point@9:1"},
@@ -291,7 +292,7 @@ TEST_CASE("bad .stl files are refused with the code and the place of the mistake
       {{"a.stl", "solid\nfacet\nouter loop\nvertex 0 0\n"}, "wrong_count@4:11"},
       {{"a.stl", "solid\nfacet\nouter loop\nvertex 0 0 0 0\n"}, "wrong_count@4:14"},
       {{"a.stl", "solid\nfacet\nouter loop\nvertex 0 0 inf\n"}, "not_finite@4:12"},
-      {{"a.stl", "solid\nfacet\nouter loop\nvertex 0 0 1e-40\n"}, "magnitude@4:12"},
+      {{"a.stl", "solid\nfacet\nouter loop\nvertex 0 0 1e40\n"}, "magnitude@4:12"},
       {{"a.stl", "solid\nendsolid\nfacet\n"}, "bad_syntax@3:1"},
   });
   for (std::size_t size = 5; size + 1 < kTextStl.rfind("endsolid"); ++size) {
@@ -314,4 +315,46 @@ TEST_CASE("the points of a mesh that was written in space are read back bit for 
     CHECK(mesher::dimension_of(folder.path(name)) == 3);
     CHECK(mesher::read_points<3>(folder.path(name)).points == mesh.vertices);
   }
+}
+
+TEST_CASE("coordinates of surfaces that are noise are taken as 0, with a note") {
+  const std::vector<NamedFile> files{
+      {"a.off", "OFF\n3 1 0\n0 1e-40 0\n1 0 -1e-33\n0 1 7e-31\n3 0 1 2\n"},
+      {"a.obj", "v 0 1e-40 0\nv 1 0 -1e-33\nv 0 1 7e-31\nf 1 2 3\n"},
+      {"a.ply",
+       "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+       "property double z\nend_header\n0 1e-40 0\n1 0 -1e-33\n0 1 7e-31\n"},
+      {"a.stl",
+       "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 1e-40 0\nvertex 1 0 -1e-33\n"
+       "vertex 0 1 7e-31\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
+       "vertex 0 1 0\nvertex 1 0 0\nendloop\nendfacet\nendsolid\n"}};
+  for (const NamedFile& file : files) {
+    CAPTURE(file.name);
+    const PointFile<3> rows = read(file);
+    CHECK(rows.points == std::vector<Point<3>>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    const auto is_it = [](const mesher::Note& note) {
+      return note.text == "a coordinate below 2^-100 is taken as 0";
+    };
+    CHECK(std::count_if(rows.notes.begin(), rows.notes.end(), is_it) == 1);
+  }
+  CHECK(failure_of([&] { read({"a.node", "1 3 0 0\n1 0 0 1e-40\n"}); }) == "magnitude@2:7");
+}
+
+TEST_CASE("lines of .obj files go on after a backslash") {
+  const ScratchFolder folder;
+  const auto read_graph = [&](const std::string& content) {
+    return mesher::read<3>(folder.write("a.obj", content)).graph;
+  };
+  const std::string vertices = "v 0 0 0\nv 1 \\\n 0 0\nv 1 1 0\nv 0 1 0\n";
+  const auto graph = read_graph(vertices + "f 1 2\\\n3 4\nf 1 2 \\\r\n\\\n3\n");
+  REQUIRE(graph.points.size() == 4);
+  CHECK(graph.points[1].at == Point<3>{1, 0, 0});
+  REQUIRE(graph.polygons.size() == 2);
+  CHECK(graph.polygons[0].loops[0].size() == 4);
+  CHECK(graph.polygons[1].loops[0].size() == 3);
+  const auto failure = [&](const std::string& faces) {
+    return failure_of([&] { static_cast<void>(read_graph(vertices + faces)); });
+  };
+  CHECK(failure("f 1 2 \\\n 3 x\n") == "bad_number@7:4");
+  CHECK(failure("f 1 \\\n 9 2\n") == "bad_mesh@7:2");
 }

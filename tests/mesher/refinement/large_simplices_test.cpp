@@ -104,7 +104,8 @@ Graph<2> parted(std::integral_constant<int, 2>) {
     graph.segments.push_back({support::id(i), support::id(i), support::id((i + 1) % 6), 0});
   }
   graph.segments.push_back({support::id(6), support::id(1), support::id(4), 0});
-  graph.seeds = {mesher::region_seed<2>(1, {.1, .1}, 1, 1e-3), mesher::region_seed<2>(2, {.9, .1}, 2)};
+  graph.seeds = {mesher::region_seed<2>(1, {.1, .1}, 1, 1e-3),
+                 mesher::region_seed<2>(2, {.9, .1}, 2)};
   return graph;
 }
 Graph<3> parted(std::integral_constant<int, 3>) {
@@ -191,9 +192,8 @@ TEMPLATE_TEST_CASE_SIG("regions have limits of their own, and what is not kept h
   for (const Algorithm algorithm : kBoth) {
     for (const Extent extent : {Extent::enclosed, Extent::box}) {
       INFO(name_of(algorithm) << (extent == Extent::box ? ", box" : ""));
-      Options<D> options{.extent = extent,
-                         .region_areas = RegionAreas::limits,
-                         .algorithm = algorithm};
+      Options<D> options{
+          .extent = extent, .region_areas = RegionAreas::limits, .algorithm = algorithm};
       const auto made = mesh(graph, options);
       CHECK(fault(made.mesh, graph) == "");
       const auto of_region = [&](double inside, double outside) {
@@ -258,7 +258,8 @@ TEST_CASE("random complexes have limits, and conform as before") {
           const auto made = mesh(plc, options);
           CHECK(fault(made.mesh, plc) == "");
           CHECK(count_large(made.mesh, [&](std::size_t t) {
-                  return is_in<3>(options.domain, middle(made.mesh, t)) ? options.max_measure : kAny;
+                  return is_in<3>(options.domain, middle(made.mesh, t)) ? options.max_measure
+                                                                        : kAny;
                 }) == 0);
         }
       }
