@@ -96,6 +96,7 @@ template void write_ele(const Mesh<2>&, const MeshFeatures&, const WriteHow<2>&,
 template void write_ele(const Mesh<3>&, const MeshFeatures&, const WriteHow<3>&, TextFile&);
 #endif
 
+#ifndef MESHER_PLANE_ONLY
 void write_face(const Mesh<3>& mesh, const MeshFeatures& features, const WriteHow<3>& how,
                 TextFile& file) {
   std::vector<MeshFace> faces = features.faces;
@@ -123,6 +124,7 @@ void write_edge(const MeshFeatures& features, const WriteHow<3>& how, TextFile& 
     file << '\n';
   }
 }
+#endif
 
 void write_edge(const Mesh<2>& mesh, const MeshFeatures& features, TextFile& file) {
   const auto all = edges(mesh);
