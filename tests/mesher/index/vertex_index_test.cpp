@@ -25,12 +25,12 @@ TEST_CASE("a Steiner vertex that was an input point forgets the call that locate
     world.insert(fresh, p);
     world.update();
     auto& record = *world.inputs().at(fresh);
-    CHECK(record.locator != 0);
+    CHECK(static_cast<bool>(record.locator));
     world.remove(fresh);
     world.update();
     REQUIRE(record.alive);
     CHECK_FALSE(record.input);
-    CHECK(record.locator == 0);  // the call is gone; its memory belongs to others
+    CHECK_FALSE(record.locator);  // the call is gone; its memory belongs to others
     world.insert(fresh, p);
     world.update();
     world.remove(fresh);

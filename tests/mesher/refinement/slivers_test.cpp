@@ -86,7 +86,7 @@ TEMPLATE_TEST_CASE_SIG("few small dihedral angles of points are left, and these 
       options.min_dihedral = bound;
       const Mesh<3> mesh = mesh_points<B>(points, options, stats);
       mesher::GraphFile<3> file;
-      file.graph = support::plc_of({.points = points});
+      file.graph = support::plc_of({.points = points, .segments = {}, .faces = {}});
       mesher::CheckOptions<3> check;
       check.graph = &file;
       check.rho = 2;
