@@ -112,7 +112,8 @@ def look_by_meshio(judge, mesher):
     judge.near(abs(ends[:, 0] - ends[:, 1]).sum(), 16, 1e-12, "the border in m.su2")
     for extension in (".vtu", ".vtk", ".msh", ".inp"):
         path = "cube" + extension
-        run(mesher, "mesh", "cube.poly", "-o", path, "--order", "2", "--max-size", ".5", "--quiet")
+        run(mesher, "mesh", "cube.poly", "-o", path, "--order", "2", "--max-size", ".5",
+            "--min-dihedral", "10", "--quiet")
         look_at_midpoints(judge, meshio.read(path), path)
 
 
@@ -226,7 +227,7 @@ def pull(judge, mesher, source, order, boundary, load, strains):
 def bend(judge, mesher):
     """A clamped beam under its weight: theory of thin beams, with shear, to 2%."""
     run(mesher, "mesh", "beam.poly", "-o", "beam.inp", "--order", "2", "--max-size", ".7",
-        "--quiet", "--name-marker", "5=clamped", "--name-marker", "6=tip")
+        "--min-dihedral", "10", "--quiet", "--name-marker", "5=clamped", "--name-marker", "6=tip")
     write("bend.txt", "*INCLUDE, INPUT=beam.inp\n" + STEEL.format(elset="Eall") +
           "*BOUNDARY\nclamped, 1, 3\n*STEP\n*STATIC\n*DLOAD\nEall, GRAV, 1, 0, 0, -1\n"
           "*NODE PRINT, NSET=tip\nU\n*END STEP\n")
