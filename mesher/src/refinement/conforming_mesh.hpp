@@ -55,6 +55,8 @@ class ConformingMesh : public RefinedMesh<D> {
   /// at nearly 180 degrees. (Not of poor slivers: in a fan of polygons that goes on and on.)
   /// Requires: as is_split().
   [[nodiscard]] std::optional<std::uint32_t> dig_sliver();
+  /// Whether there may be more to do, after a look at all. Requires: as is_split().
+  [[nodiscard]] bool looks_again() { return conformity_.looks_again(); }
   /// At the end. Requires: as is_split().
   void finish();
 

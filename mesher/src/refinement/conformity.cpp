@@ -204,6 +204,9 @@ void Conformity::after_fill(std::uint32_t v) {
     const std::uint32_t other = pieces_.split(piece, v, vertices_[v].role.label);
     look_at_piece(piece);
     look_at_piece(other);
+    for (const Rank f : has_polygons_ ? at_edge_[pieces_[piece].edge] : Polygons{}) {
+      for (const std::uint32_t i : {piece, other}) suspect(f, pieces_[i].a, pieces_[i].b);
+    }
   }
   for (const std::uint32_t piece : dug_pieces_) {
     if (!is_made(piece)) want_piece(piece, v);

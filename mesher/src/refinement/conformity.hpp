@@ -22,6 +22,8 @@
 // on one side alone: then what is flat is outside.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -56,6 +58,9 @@ class Conformity : public LineConformity<3, Conformity> {
 
   /// Nothing: all conforms. Throws: Error (too_close: a piece is too short to be split).
   [[nodiscard]] std::optional<Wanted> next();
+  /// Whether next() may find something after a look at all of the polygons that are not covered, of
+  /// which it looks at what has changed. Requires: it has returned nothing.
+  [[nodiscard]] bool looks_again();
   /// Throws: Error (too_close: another vertex is there).
   [[noreturn]] void fail_occupied(const Placed& place) const { throw too_close_near(place.p); }
 
@@ -160,6 +165,14 @@ class Conformity : public LineConformity<3, Conformity> {
   [[nodiscard]] bool is_covered(Rank f) const;
   [[nodiscard]] bool is_towards(const Side& side, std::uint32_t v) const;
   void find_open_sides(Rank f);
+  void find_new_open_sides(Rank f);
+  void sort_open_sides(std::size_t first);
+  void suspect(Rank f, std::uint32_t a, std::uint32_t b) {
+    suspects_[f].push_back({std::min(a, b), std::max(a, b)});
+  }
+  void suspect(Rank f, const Face& face) {
+    suspect(f, face[0], face[1]), suspect(f, face[1], face[2]), suspect(f, face[0], face[2]);
+  }
   [[nodiscard]] std::optional<Gap> gap_at(const Side& side);
   [[nodiscard]] std::optional<Gap> next_gap();
 
@@ -183,11 +196,16 @@ class Conformity : public LineConformity<3, Conformity> {
   Lists at_edge_, at_point_;
   Tiles tiles_;
   std::vector<std::uint32_t> wanted_tiles_;
-  std::vector<bool> is_turned_;            // by polygon: its upper side is not the normal's
-  std::vector<double> area_, covered_;     // of polygons; what tiles have of it
-  std::vector<Rank> loose_;                // polygons that have lost tiles
-  std::vector<bool> is_loose_;             // by polygon
-  std::vector<Side> open_;                 // sides of edges where tiles were missing
+  std::vector<bool> is_turned_;         // by polygon: its upper side is not the normal's
+  std::vector<double> area_, covered_;  // of polygons; what tiles have of it
+  std::vector<Rank> loose_;             // polygons that have lost tiles
+  std::vector<bool> is_loose_;          // by polygon
+  std::vector<Side> open_;              // sides of edges where tiles were missing
+  // By polygon: edges of tiles that came or went, and pieces that were split, since its open sides
+  // were found.
+  std::vector<std::vector<std::array<std::uint32_t, 2>>> suspects_;
+  std::vector<bool> has_looked_;           // by polygon: at all of it, when tiles were missing
+  std::size_t looked_again_ = 0;           // with so many vertices
   bool has_polygons_ = false;              // their tiles are known
   std::vector<std::uint32_t> dug_pieces_;  // scratch
 };

@@ -9,6 +9,7 @@
 #include "delaunay/facets.hpp"
 #include "refinement/conformity.hpp"
 #include "refinement/conformity_balls.hpp"
+#include "sets/make_set.hpp"
 #include "space/polygon_shape.hpp"
 #include "space/small_angles.hpp"
 #include "space/yielding.hpp"
@@ -42,6 +43,7 @@ bool Conformity::is_towards(const Side& side, std::uint32_t v) const {
 /// Of the tiles of f and of its pieces, in canonical order. Cost: O(n log n) for n of them.
 void Conformity::find_open_sides(Rank rank) {
   const Polygon& f = polygon(rank);
+  suspects_[rank].clear();
   struct At {
     std::uint32_t a, b, corner;  // a < b; of the tile's third corner
     auto operator<=>(const At&) const = default;
@@ -82,10 +84,69 @@ void Conformity::find_open_sides(Rank rank) {
       }
     }
   }
+  sort_open_sides(first);
+}
+
+void Conformity::sort_open_sides(std::size_t first) {
   std::sort(open_.begin() + static_cast<std::ptrdiff_t>(first), open_.end(),
             [](const Side& s, const Side& t) {
               return std::tie(s.a, s.b, s.towards) < std::tie(t.a, t.b, t.towards);
             });
+}
+
+/// The same of the edges that are suspect: others have had their tiles before, or gap_at() has
+/// found nothing there. Cost: O(their stars).
+void Conformity::find_new_open_sides(Rank rank) {
+  const Polygon& f = polygon(rank);
+  auto suspects = std::move(suspects_[rank]);
+  suspects_[rank].clear();
+  make_set(suspects);
+  const std::size_t first = open_.size();
+  std::vector<std::uint32_t> corners_there;  // third corners of tiles at the edge
+  for (const auto& [a, b] : suspects) {
+    corners_there.clear();
+    kernel_.find_in_star(a, star_, [](std::uint32_t) { return false; });
+    for (const std::uint32_t s : star_) {
+      const auto& corners = kernel_.simplices().corners(s);
+      if (corner_of(corners, b) == corners.size()) continue;
+      for (const std::uint32_t w : corners) {
+        if (w == a || w == b || w == kInfinite || !is_on(w, rank)) continue;
+        if (tiles_.find(face_of(a, b, w), rank) != kNone) corners_there.push_back(w);
+      }
+    }
+    const auto has_tile = [&](const Side& side) {
+      return std::any_of(corners_there.begin(), corners_there.end(),
+                         [&](std::uint32_t w) { return is_towards(side, w); });
+    };
+    const Point<3> across = cross(f.plane.normal, minus(place(b), place(a)));
+    const Side left{rank, a, b, across}, right{rank, a, b, scaled(-1, across)};
+    const std::uint32_t piece = pieces_.find(a, b);
+    if (piece == kNone) {
+      const bool on_left = has_tile(left), on_right = has_tile(right);
+      if (on_left && !on_right) open_.push_back(right);
+      if (on_right && !on_left) open_.push_back(left);
+    } else if (f.has_edge(pieces_[piece].edge)) {
+      const std::uint32_t corner = f.corner_at(pieces_[piece].edge);
+      if (corner != Polygon::kInner) {
+        const Side inside{rank, a, b, inward(f, corner)};
+        if (!has_tile(inside)) open_.push_back(inside);
+      } else {
+        if (!has_tile(left)) open_.push_back(left);
+        if (!has_tile(right)) open_.push_back(right);
+      }
+    }
+  }
+  sort_open_sides(first);
+}
+
+bool Conformity::looks_again() {
+  if (!has_polygons_ || std::exchange(looked_again_, kernel_.places()) == kernel_.places()) {
+    return false;
+  }
+  for (Rank f = 1; f < by_rank_.size(); ++f) {
+    if (!is_covered(f)) find_open_sides(f);
+  }
+  return !open_.empty();
 }
 
 /// Nothing: there is a tile, or no such edge any more. Cost: O(star of a).
@@ -138,7 +199,14 @@ auto Conformity::next_gap() -> std::optional<Gap> {
     const Rank f = loose_.back();
     loose_.pop_back();
     is_loose_[f] = false;
-    if (!is_covered(f)) find_open_sides(f);
+    if (is_covered(f)) {
+      suspects_[f].clear();
+    } else if (has_looked_[f]) {
+      find_new_open_sides(f);
+    } else {
+      has_looked_[f] = true;
+      find_open_sides(f);
+    }
   }
 }
 

@@ -16,6 +16,8 @@ void Conformity::start_polygons() {
   area_.assign(by_rank_.size(), 0);
   covered_.assign(by_rank_.size(), 0);
   is_loose_.assign(by_rank_.size(), false);
+  suspects_.resize(by_rank_.size());
+  has_looked_.assign(by_rank_.size(), false);
   is_turned_.assign(by_rank_.size(), false);
   for (Rank f = 1; f <= last; ++f) {
     const Polygon& g = polygon(f);
@@ -60,6 +62,7 @@ void Conformity::look_at_facet(std::uint32_t s, std::uint32_t i) {
     if (is == (known != kNone)) return;
     if (is) {
       tiles_.add(face, f);
+      suspect(f, face);
       covered_[f] += area_of(face);
     } else {
       erase(known);
@@ -134,6 +137,7 @@ void Conformity::want_tile(std::uint32_t tile, const Point<3>& from) {
 void Conformity::erase(std::uint32_t tile) {
   const Tiles::Tile& gone = tiles_[tile];
   covered_[gone.polygon] -= area_of(gone.face);
+  suspect(gone.polygon, gone.face);
   note_loose(gone.polygon);
   tiles_.erase(tile);
 }

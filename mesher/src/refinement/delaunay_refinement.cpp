@@ -32,7 +32,7 @@ void DelaunayRefinement<D, Queue, Mesh>::run() {
       split_large(large);
     } else if (const auto v = this->dig_sliver()) {
       fill(*v);
-    } else {
+    } else if (!this->looks_again()) {
       break;
     }
   }

@@ -22,9 +22,11 @@ double measure(const CornersOf<2>& p) {
   const Point<2> ab = minus(p[1], p[0]), ac = minus(p[2], p[0]);
   return std::abs(ab[0] * ac[1] - ab[1] * ac[0]) / 2;
 }
+#ifndef MESHER_PLANE_ONLY
 double measure(const CornersOf<3>& p) {
   return std::abs(dot(minus(p[1], p[0]), cross(minus(p[2], p[0]), minus(p[3], p[0])))) / 6;
 }
+#endif
 
 template <int D, class Kernel>
 CornersOf<D> corners_of(const Kernel& kernel, std::uint32_t s) {

@@ -42,6 +42,8 @@ class PlaneConformity : public LineConformity<2, PlaneConformity> {
 
   /// Nothing: all conforms. Throws: Error (too_close: a piece is too short to be split).
   [[nodiscard]] std::optional<Wanted> next();
+  /// It knows of all that is wanted.
+  [[nodiscard]] static constexpr bool looks_again() noexcept { return false; }
   /// Throws: Error (too_close: another vertex is there).
   [[noreturn]] void fail_occupied(const Placed& place) const;
   /// Throws: Error (too_many: beyond `most`, with the ids of the lines with most vertices).

@@ -144,6 +144,8 @@ class RefinedMesh {
   [[nodiscard]] std::optional<std::uint32_t> dig_sliver_if(IsSplit&& is_split, Add&& add,
                                                            Drop&& drop, Fits&& fits,
                                                            Otherwise&& otherwise);
+  /// Whether there may be more to do, after a look at all.
+  [[nodiscard]] static constexpr bool looks_again() noexcept { return false; }
   /// Forgets a place that is no vertex.
   void drop_place() {
     kernel_.drop_place();

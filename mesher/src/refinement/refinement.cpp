@@ -51,7 +51,7 @@ void Refinement<D, Mesh, Location>::run() {
       } else if (const auto sliver = this->dig_sliver()) {
         location_.add_vertex();
         insert_dug(*sliver, {});
-      } else {
+      } else if (!this->looks_again()) {
         break;
       }
     }
