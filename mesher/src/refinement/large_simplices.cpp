@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "geometry/box.hpp"
-#include "geometry/centroid.hpp"
 #include "geometry/plane_vectors.hpp"
 #include "geometry/space_vectors.hpp"
 
@@ -28,14 +27,6 @@ double measure(const CornersOf<3>& p) {
 }
 #endif
 
-template <int D, class Kernel>
-CornersOf<D> corners_of(const Kernel& kernel, std::uint32_t s) {
-  CornersOf<D> places;
-  const auto& corners = kernel.simplices().corners(s);
-  for (std::size_t i = 0; i <= D; ++i) places[i] = kernel.place(corners[i]);
-  return places;
-}
-
 }  // namespace
 
 template <int D>
@@ -46,12 +37,15 @@ LargeSimplices<D>::LargeSimplices(std::shared_ptr<const Limits<D>> limits, doubl
 }
 
 template <int D>
-double LargeSimplices<D>::measure_of(const Kernel& kernel, std::uint32_t s) {
-  return measure(corners_of<D>(kernel, s));
+CornersOf<D> LargeSimplices<D>::corners_of(const Kernel& kernel, std::uint32_t s) {
+  CornersOf<D> places;
+  const auto& corners = kernel.simplices().corners(s);
+  for (std::size_t i = 0; i <= D; ++i) places[i] = kernel.place(corners[i]);
+  return places;
 }
 template <int D>
-Point<D> LargeSimplices<D>::centroid_of(const Kernel& kernel, std::uint32_t s) {
-  return centroid(corners_of<D>(kernel, s));
+double LargeSimplices<D>::measure_of(const CornersOf<D>& corners) {
+  return measure(corners);
 }
 
 /// The size of simplices with this measure. The same on every machine.
@@ -67,7 +61,7 @@ void LargeSimplices<D>::look_at(const Kernel& kernel, std::uint32_t s) {
   if (kernel.is_ghost(s)) return;
   double least = least_;
   if (growth_.any()) least = std::min(least, measure_of_size<D>(growth_.least(kernel, s)));
-  const double own = measure_of(kernel, s);
+  const double own = measure_of(corners_of(kernel, s));
   if (own > least) queue_.insert(1 / own, {s, age_[s]});
 }
 
@@ -83,9 +77,9 @@ void LargeSimplices<D>::after_fill(Kernel& kernel) {
 }
 
 template <int D>
-double LargeSimplices<D>::graded(const Kernel& kernel, std::uint32_t s, double limit) {
+double LargeSimplices<D>::graded(const Kernel& kernel, std::uint32_t s, const Point<D>& middle,
+                                 double limit) const {
   if (!growth_.any()) return limit;
-  const Point<D> middle = centroid_of(kernel, s);
   if (limits_->nearest_in_domain(middle) != middle) return limit;
   return std::min(limit, measure_of_size<D>(growth_.at(kernel, s, middle)));
 }
@@ -95,9 +89,9 @@ template <int D>
 const std::vector<Point<D>>& LargeSimplices<D>::places(const Kernel& kernel, std::uint32_t s) {
   places_.clear();
   found_.clear();
-  pitch_ = limits_->pitch_for_measure(centroid_of(kernel, s), limit_, is_graded_);
+  const CornersOf<D> corners = corners_of(kernel, s);
+  pitch_ = limits_->pitch_for_measure(centroid(corners), limit_, is_graded_);
   if (!(pitch_ < Limits<D>::kNone)) return places_;
-  const CornersOf<D> corners = corners_of<D>(kernel, s);
   const Point<D>& centre = kernel.simplices().ball(s).centre;
   const double radius2 = squared_distance(centre, corners[0]);
   const double clear2 = kFromVertices * kFromVertices * pitch_ * pitch_;

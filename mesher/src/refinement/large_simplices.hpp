@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "delaunay/kernel.hpp"
+#include "geometry/centroid.hpp"
 #include "refinement/bucketed_queue.hpp"
 #include "refinement/growth.hpp"
 #include "sizes/limits.hpp"
@@ -53,12 +54,13 @@ class LargeSimplices {
     double distance2;  // to the centre
     Point<D> at;
   };
-  [[nodiscard]] static double measure_of(const Kernel& kernel, std::uint32_t s);
-  [[nodiscard]] static Point<D> centroid_of(const Kernel& kernel, std::uint32_t s);
+  [[nodiscard]] static CornersOf<D> corners_of(const Kernel& kernel, std::uint32_t s);
+  [[nodiscard]] static double measure_of(const CornersOf<D>& corners);
   [[nodiscard]] static double size_of(double measure);
   template <class Limit>
   void start(Kernel& kernel, Limit&& limit);
-  [[nodiscard]] double graded(const Kernel& kernel, std::uint32_t s, double limit);
+  [[nodiscard]] double graded(const Kernel& kernel, std::uint32_t s, const Point<D>& middle,
+                              double limit) const;
 
   std::shared_ptr<const Limits<D>> limits_;
   double least_ = 0;  // nothing that is not larger is too large, but for growth
@@ -85,7 +87,7 @@ void LargeSimplices<D>::start(Kernel& kernel, Limit&& limit) {
   if (growth_.any()) {
     growth_.start(kernel);
     for_each([&](std::uint32_t s) {
-      const auto allowed = limit(s, limits_->measure(centroid_of(kernel, s)));
+      const auto allowed = limit(s, limits_->measure(centroid(corners_of(kernel, s))));
       if (allowed) growth_.bound(kernel, s, size_of(*allowed));
     });
     growth_.spread(kernel, [](std::uint32_t) {});
@@ -103,11 +105,13 @@ std::uint32_t LargeSimplices<D>::take(Kernel& kernel, Limit&& limit) {
     const Entry entry = queue_.delete_min();
     const std::uint32_t s = entry.simplex;
     if (age_[s] != entry.age) continue;
-    const std::optional<double> allowed = limit(s, limits_->measure(centroid_of(kernel, s)));
+    const CornersOf<D> corners = corners_of(kernel, s);
+    const Point<D> middle = centroid(corners);
+    const std::optional<double> allowed = limit(s, limits_->measure(middle));
     if (!allowed) continue;
-    limit_ = graded(kernel, s, *allowed);
+    limit_ = graded(kernel, s, middle, *allowed);
     is_graded_ = limit_ < *allowed;
-    if (!(measure_of(kernel, s) > limit_ * kLargest)) continue;
+    if (!(measure_of(corners) > limit_ * kLargest)) continue;
     dug_size_ = size_of(limit_);
     return s;
   }

@@ -54,10 +54,10 @@ struct RefinedExtent {
   std::vector<LimitedRegion<D>> regions{};  ///< the same holds; of several in one the first counts
 };
 
-/// The mesh. `options`: domain, rho and max_vertices count; `ids`: as many as points, only used in
+/// The mesh. `options`: all count but extent and region_areas; `ids`: as many as points, for
 /// errors (empty: 1..n).
 /// Requires: ids.empty() || ids.size() == points.size().
-/// Throws: Error (bad_option: as mesh_statically, and for limits of size or another rule;
+/// Throws: Error (bad_option: as mesh_statically, and for another rule;
 ///         not_finite, magnitude, outside_domain, duplicate_point, too_close; too_many: beyond
 ///         options.max_vertices; cancelled), std::bad_alloc, what control.progress throws.
 /// Cost: that of the Delaunay triangulation of the points, and of the simplices that are made.

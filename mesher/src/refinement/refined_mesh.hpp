@@ -127,8 +127,6 @@ class RefinedMesh {
   template <class Add, class Drop, class Fits>
   [[nodiscard]] std::optional<std::uint32_t> dig_on_lattice_if(std::uint32_t s, Add&& add,
                                                                Drop&& drop, Fits&& fits);
-  /// A simplex that was taken waits again.
-  void put_back_large(std::uint32_t s) { large_.look_at(kernel_, s); }
   /// Digs a vertex that splits a sliver; nothing: there is none that one will split. Requires: no
   /// simplex is poor.
   [[nodiscard]] std::optional<std::uint32_t> dig_sliver() {

@@ -45,12 +45,12 @@ struct SvrSettings {
   PointLocation location = PointLocation::voronoi;
 };
 
-/// The mesh. `options`: domain, rho and max_vertices count; `ids`: as many as points, only used in
+/// The mesh. `options`: all count but extent and region_areas; `ids`: as many as points, for
 /// errors (empty: 1..n).
 /// Requires: ids.empty() || ids.size() == points.size().
-/// Throws: Error (bad_option: as mesh_statically, and for limits of size, another rule, or k out of
-///         range; not_finite, magnitude, outside_domain, duplicate_point, too_close; too_many:
-///         beyond options.max_vertices; cancelled), std::bad_alloc, what control.progress throws.
+/// Throws: Error (bad_option: as mesh_statically, and for another rule, or k out of range;
+///         not_finite, magnitude, outside_domain, duplicate_point, too_close; too_many: beyond
+///         options.max_vertices; cancelled), std::bad_alloc, what control.progress throws.
 /// Cost: O(n log(spread) + m) for m vertices, where spread is the largest over the smallest
 /// distance
 ///       of points. `stats` costs some 10%.
