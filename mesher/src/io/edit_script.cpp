@@ -7,8 +7,10 @@
 #include <chrono>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <span>
+#include <sstream>
 
 #include "mesher/read.hpp"
 #include "mesher/sizes.hpp"
@@ -31,7 +33,7 @@ constexpr std::string_view kLimitUsage =
            : "limit volume V|size H|sizes FILE|none [in XMIN YMIN ZMIN XMAX YMAX ZMAX]";
 
 constexpr std::string_view kPolygonUsage =
-    "+polygon ID P P P... [/ P P P...]... [on P...] [along A B [A B]...]";
+    "+polygon ID P P P... [/ P P P...]... [on P...] [along A B [A B]...] [marker M]";
 
 constexpr Form kPlaneForms[] = {
     {"+point", EditKind::insert, 4, "+point ID x y [marker M]"},
@@ -49,12 +51,12 @@ constexpr Form kPlaneForms[] = {
 };
 
 constexpr Form kSpaceForms[] = {
-    {"+point", EditKind::insert, 5, "+point ID x y z"},
+    {"+point", EditKind::insert, 5, "+point ID x y z [marker M]"},
     {"-point", EditKind::remove, 2, "-point ID"},
     {"move", EditKind::move, 5, "move ID x y z"},
-    {"+segment", EditKind::insert_segment, 4, "+segment ID A B"},
+    {"+segment", EditKind::insert_segment, 4, "+segment ID A B [marker M]"},
     {"-segment", EditKind::remove_segment, 2, "-segment ID"},
-    {"+polyline", EditKind::insert_polyline, 4, "+polyline ID P P...", SIZE_MAX},
+    {"+polyline", EditKind::insert_polyline, 4, "+polyline ID P P... [marker M]", SIZE_MAX},
     {"-polyline", EditKind::remove_polyline, 2, "-polyline ID"},
     {"+polygon", EditKind::insert_polygon, 5, kPolygonUsage, SIZE_MAX},
     {"-polygon", EditKind::remove_polygon, 2, "-polygon ID"},
@@ -199,21 +201,22 @@ Box<D> limit_box(const text::Line& line, std::size_t first) {
 }
 
 // The fields from `i` up to the next that is a word of +polygon; `i` is that one's then.
-std::vector<PointId> points_from(const text::Line& line, std::size_t& i) {
+std::vector<PointId> points_from(const text::Line& line, std::size_t size, std::size_t& i) {
   std::vector<PointId> points;
-  for (; i < line.size() && line[i] != "/" && line[i] != "on" && line[i] != "along"; ++i) {
+  for (; i < size && line[i] != "/" && line[i] != "on" && line[i] != "along"; ++i) {
     points.push_back(PointId{line.integer(i)});
   }
   return points;
 }
 
-Polygon parse_polygon(const text::Line& line) {
+// Of its first `size` fields.
+Polygon parse_polygon(const text::Line& line, std::size_t size) {
   Polygon polygon{.id = PolygonId{line.integer(1)}, .loops = {}};
   std::size_t i = 2;
-  polygon.loops.push_back(points_from(line, i));
-  while (i < line.size()) {
+  polygon.loops.push_back(points_from(line, size, i));
+  while (i < size) {
     const std::size_t word = i++;
-    const std::vector<PointId> points = points_from(line, i);
+    const std::vector<PointId> points = points_from(line, size, i);
     if (line[word] == "/") {
       polygon.loops.push_back(points);
     } else if (line[word] == "on") {
@@ -251,7 +254,7 @@ void parse_limit(const text::Line& line, Edit<D>& edit) {
 template <int D>
 Edit<D> parse(const text::Line& line) {
   const Form& form = form_of<D>(line);
-  const bool marked = D == 2 && has_marker(line, form);
+  const bool marked = has_marker(line, form);
   const std::size_t size = line.size() - (marked ? 2 : 0);
   require_fields(line, size, form);
   Edit<D> edit;
@@ -268,7 +271,8 @@ Edit<D> parse(const text::Line& line) {
       edit.max_measure = max_measure_of(line, 3 + D);
     }
   } else if (form.kind == EditKind::insert_polygon) {
-    edit.polygon = parse_polygon(line);
+    edit.polygon = parse_polygon(line, size);
+    edit.polygon.marker = edit.marker;
   } else {
     for (std::size_t i = 2; i < size; ++i) {
       edit.points.push_back(PointId{line.integer(i)});
@@ -326,24 +330,36 @@ Feature Edit<D>::feature() const {
 }
 
 template <int D>
+EditScript<D>::EditScript(std::unique_ptr<std::istream> stream, std::string path)
+    : path_(std::move(path)), stream_(std::move(stream)) {}
+
+template <int D>
 EditScript<D>::EditScript(const std::string& path) : path_(path) {
+  auto file = std::make_unique<std::ifstream>();
   std::error_code error;
   errno = std::filesystem::is_directory(path, error) ? EISDIR : 0;
-  if (errno == 0) stream_.open(path, std::ios::binary);
-  if (stream_.is_open()) return;
-  throw Error(ErrorCode::cannot_read, std::string("cannot be read: ") + std::strerror(errno),
-              {path});
+  if (errno == 0) file->open(path, std::ios::binary);
+  if (!file->is_open()) {
+    throw Error(ErrorCode::cannot_read, std::string("cannot be read: ") + std::strerror(errno),
+                {path});
+  }
+  stream_ = std::move(file);
+}
+
+template <int D>
+EditScript<D> EditScript<D>::of_text(std::string text, std::string path) {
+  return {std::make_unique<std::istringstream>(std::move(text)), std::move(path)};
 }
 
 // Goes to the next line that holds anything.
 template <int D>
 bool EditScript<D>::read_line() {
-  while (std::getline(stream_, text_)) {
+  while (std::getline(*stream_, text_)) {
     if (++number_ == 1) text_ = without_mark(text_);
     if (!text_.empty() && text_.back() == '\r') text_.pop_back();
     if (split(path_, number_, text_).size() > 0) return true;
   }
-  if (stream_.bad()) throw Error(ErrorCode::cannot_read, "cannot be read further", here());
+  if (stream_->bad()) throw Error(ErrorCode::cannot_read, "cannot be read further", here());
   return false;
 }
 

@@ -1,8 +1,11 @@
 // Any system, in standard C++. What removes and writes at an interrupt is not promised to be safe
 // there, but is on the systems that we know.
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <system_error>
 
 #include "process.hpp"
 
@@ -61,5 +64,23 @@ bool shows_errors_to_people() noexcept { return false; }
 std::uint64_t peak_memory_bytes() noexcept { return 0; }
 
 void keep_freed_memory() noexcept {}
+
+std::FILE* open_to_append(const std::string& path) noexcept {
+  std::FILE* const file = std::fopen(path.c_str(), "a+b");
+  if (file != nullptr) std::setvbuf(file, nullptr, _IONBF, 0);
+  return file;
+}
+
+bool lock(std::FILE*) noexcept { return true; }
+
+int sync(std::FILE* file) noexcept { return std::fflush(file) == 0 ? 0 : errno; }
+
+void sync_folder_of(const std::string&) noexcept {}
+
+int shorten(std::FILE*, const std::string& path, std::uint64_t bytes) noexcept {
+  std::error_code error;
+  std::filesystem::resize_file(path, bytes, error);
+  return error.value();
+}
 
 }  // namespace tool::platform

@@ -1,10 +1,14 @@
 // Linux, on any processor. That freed memory stays is a matter of the C library: glibc can be told.
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -89,6 +93,31 @@ void keep_freed_memory() noexcept {
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
 #endif
+}
+
+std::FILE* open_to_append(const std::string& path) noexcept {
+  std::FILE* const file = std::fopen(path.c_str(), "a+be");
+  if (file != nullptr) std::setvbuf(file, nullptr, _IONBF, 0);
+  return file;
+}
+
+bool lock(std::FILE* file) noexcept { return ::flock(::fileno(file), LOCK_EX | LOCK_NB) == 0; }
+
+int sync(std::FILE* file) noexcept { return ::fdatasync(::fileno(file)) == 0 ? 0 : errno; }
+
+void sync_folder_of(const std::string& path) noexcept {
+  try {
+    const std::string folder = std::filesystem::absolute(path).parent_path().string();
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    ::fsync(descriptor);
+    ::close(descriptor);
+  } catch (...) {  // then the name may be lost with the power
+  }
+}
+
+int shorten(std::FILE* file, const std::string&, std::uint64_t bytes) noexcept {
+  return ::ftruncate(::fileno(file), static_cast<off_t>(bytes)) == 0 ? 0 : errno;
 }
 
 }  // namespace tool::platform

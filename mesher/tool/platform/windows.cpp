@@ -3,8 +3,10 @@
 #define NOMINMAX
 #include <windows.h>
 // After it:
+#include <io.h>
 #include <psapi.h>
 
+#include <cerrno>
 #include <cstring>
 #include <mutex>
 
@@ -67,5 +69,24 @@ std::uint64_t peak_memory_bytes() noexcept {
 }
 
 void keep_freed_memory() noexcept {}
+
+std::FILE* open_to_append(const std::string& path) noexcept {
+  std::FILE* const file = std::fopen(path.c_str(), "a+b");
+  if (file != nullptr) std::setvbuf(file, nullptr, _IONBF, 0);
+  return file;
+}
+
+bool lock(std::FILE* file) noexcept {
+  const auto handle_of = reinterpret_cast<HANDLE>(_get_osfhandle(_fileno(file)));
+  return LockFile(handle_of, 0, 1U << 30, 1, 0) != 0;  // a byte beyond all: others may read
+}
+
+int sync(std::FILE* file) noexcept { return _commit(_fileno(file)) == 0 ? 0 : errno; }
+
+void sync_folder_of(const std::string&) noexcept {}
+
+int shorten(std::FILE* file, const std::string&, std::uint64_t bytes) noexcept {
+  return _chsize_s(_fileno(file), static_cast<long long>(bytes));
+}
 
 }  // namespace tool::platform

@@ -439,6 +439,33 @@ TEST_CASE("a script in space has segments, and polygons with holes and what lies
   CHECK(m.lines() == std::vector{mesher::Polyline{LineId{3}, list({5, 12, 7})}});
 }
 
+TEST_CASE("a script in space gives markers to points, lines and polygons") {
+  auto script = mesher::EditScript<3>::of_text(
+      "begin\n+point 1 0 0 0 marker 5\n+segment 2 1 3 marker -6\n"
+      "+polyline 3 1 3 4 marker 7\n+polygon 4 1 3 4 on 5 marker 8\n+polygon 5 1 3 4\ncommit\n",
+      "edits.txt");
+  const auto edits = script.next();
+  REQUIRE((edits && edits->size() == 5));
+  std::vector<std::int64_t> markers;
+  for (const auto& edit : *edits) markers.push_back(edit.marker);
+  CHECK(markers == std::vector<std::int64_t>{5, -6, 7, 8, 0});
+  CHECK((*edits)[3].polygon.marker == 8);
+  CHECK((*edits)[3].polygon.points == std::vector{PointId{5}});
+  CHECK((*edits)[4].polygon.marker == 0);
+}
+
+TEST_CASE("a script may be a text in memory, of which errors are said, and files beside it read") {
+  const ScratchFolder folder;
+  const std::string path = folder.write("edits.txt", "");
+  folder.write("sizes.csv", "x,y,h\n0,0,0.5\n1,0,0.5\n0,1,0.5\n");
+  auto script = mesher::EditScript<2>::of_text("limit sizes sizes.csv\n+point 1 0\n", path);
+  const auto edits = script.next();
+  REQUIRE((edits && edits->size() == 1));
+  CHECK((*edits)[0].limits.sizes != nullptr);
+  const Error error = support::error_of([&] { static_cast<void>(script.next()); });
+  CHECK(error.location() == mesher::FileLocation{path, 2, 11});
+}
+
 TEST_CASE("a script in space has seeds, whose errors are said of their lines") {
   const ScratchFolder folder;
   mesher::Mesher<3> m({.domain = {{0, 0, 0}, {1, 1, 1}}});
@@ -484,7 +511,7 @@ TEST_CASE("bad lines of a script in space are refused with the code and the plac
   const Refused refused = GENERATE(values<Refused>({
       {"+point 1 0 0\n", "bad_edit@1:13"},
       {"+point 1 0 0 0 0\n", "bad_edit@1:16"},
-      {"+point 1 0 0 0 marker 5\n", "bad_edit@1:16"},
+      {"+point 1 0 0 0 marker 5.5\n", "bad_number@1:23"},
       {"+point 1 0 0 0\nmove 1 0 0\n", "bad_edit@2:11"},
       {"+point 1 0 0 nan\n", "not_finite@1:14"},
       {"+point 1 0 0 1e-31\n", "magnitude@1:14"},
@@ -493,7 +520,8 @@ TEST_CASE("bad lines of a script in space are refused with the code and the plac
       {"+point 1 0 0 0\n+point 2 0 0 0\n", "duplicate_point@2:1"},
       {"begin\n+point 1 0 0 0\n move 1 0 0 0\n+point 2 0 0 0\ncommit\n", "duplicate_point@4:1"},
       {"+segment 1 1 2\n", "unknown_id@1:1"},
-      {"+segment 1 1 2 marker 7\n", "bad_edit@1:16"},
+      {"+segment 1 1 2 marker x\n", "bad_number@1:23"},
+      {"+polygon 1 1 2 3 marker\n", "bad_number@1:18"},
       {"+polyline 1 1\n", "bad_edit@1:14"},
       {"+polygon 1 1 2\n", "bad_edit@1:15"},
       {"+polygon 1 1 2 3\n", "unknown_id@1:1"},

@@ -9,7 +9,8 @@
 //   +polyline ID P...    adds segments from point to point, under one id; closed if the last point
 //                        is the first
 //   -polyline ID         removes all of them
-//                        +point, +segment and +polyline may end with `marker M`, an integer
+//                        +point, +segment, +polyline and +polygon may end with `marker M`, an
+//                        integer
 //   +hole ID x y         excludes the region around (x, y) that the lines enclose from the domain
 //   -hole ID             removes a hole
 //   +region ID x y ATTRIBUTE [MAX_AREA]
@@ -29,7 +30,7 @@
 // a point before its segments.
 //
 // In space points have a third coordinate, `+point ID x y z`; there are edits of segments and
-// polylines, without markers, and
+// polylines, and
 //
 //   +polygon ID P P P... [/ P P P...]... [on P...] [along A B [A B]...]
 //                        adds a polygon: its outer loop of points, then the loops of holes; points
@@ -47,7 +48,8 @@
 #pragma once
 
 #include <cstdint>
-#include <fstream>
+#include <istream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -86,7 +88,7 @@ struct Edit {
   Point<D> point{};                     ///< of insert and move, and of a new seed
   std::vector<PointId> points{};        ///< of a new segment or polyline
   Polygon polygon{};                    ///< a new polygon
-  std::int64_t marker = 0;              ///< of a new point or line; 0: none
+  std::int64_t marker = 0;              ///< of a new point, line or polygon; 0: none
   double attribute = 0;                 ///< of a new region
   std::optional<double> max_measure{};  ///< likewise
   SizeLimits<D> limits{};               ///< of limit
@@ -107,6 +109,8 @@ class EditScript {
  public:
   /// Throws: Error(cannot_read).
   explicit EditScript(const std::string& path);
+  /// Of a text in memory. `path`: what errors name; FILE of limits is beside it.
+  [[nodiscard]] static EditScript of_text(std::string text, std::string path);
 
   /// The next edit, or the edits of the next block; nothing at the end of the script. Reads no line
   /// before it is needed.
@@ -114,12 +118,13 @@ class EditScript {
   [[nodiscard]] std::optional<std::vector<Edit<D>>> next();
 
  private:
+  EditScript(std::unique_ptr<std::istream> stream, std::string path);
   [[nodiscard]] bool read_line();
   [[nodiscard]] std::vector<Edit<D>> read_block();
   [[nodiscard]] FileLocation here() const { return {path_, number_, 1}; }
 
   std::string path_;
-  std::ifstream stream_;
+  std::unique_ptr<std::istream> stream_;
   std::string text_;  // the current line
   long number_ = 0;
 };
