@@ -16,7 +16,7 @@ std::vector<std::string>& doomed() {
   return *paths;
 }
 
-volatile std::sig_atomic_t polite = 0;     // interrupts are noted
+volatile std::sig_atomic_t polite = 0;     // above 0: interrupts are noted
 volatile std::sig_atomic_t was_asked = 0;  // one was
 
 // Calls only what is safe in a signal handler.
@@ -47,8 +47,8 @@ void require_uninterrupted() {
   if (interrupted()) throw mesher::Error(mesher::ErrorCode::cancelled, kStopped);
 }
 
-StopPolitely::StopPolitely() { polite = 1; }
-StopPolitely::~StopPolitely() { polite = 0; }
+StopPolitely::StopPolitely() { polite = polite + 1; }
+StopPolitely::~StopPolitely() { polite = polite - 1; }
 
 HoldInterrupts::HoldInterrupts() : before_(platform::hold_interrupts()) {}
 HoldInterrupts::~HoldInterrupts() { platform::restore_interrupts(before_); }

@@ -9,6 +9,7 @@ namespace tool {
 void add_gen(CLI::App& app);
 void add_mesh(CLI::App& app);
 void add_edit(CLI::App& app);
+void add_view(CLI::App& app);  // where Boost is
 void add_check(CLI::App& app);
 void add_trace(CLI::App& app);
 

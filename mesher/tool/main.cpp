@@ -1,8 +1,8 @@
 // mesher: quality meshes of files of points and lines, or of points in space, that follow edits.
 #include <algorithm>
-#include <array>
 #include <exception>
 #include <iostream>
+#include <iterator>
 #include <new>
 #include <string>
 #include <string_view>
@@ -33,17 +33,18 @@ struct Command {
   std::string_view name;
   void (*add)(CLI::App&);
 };
-constexpr std::array<Command, 5> kCommands{{{"gen", tool::add_gen},
-                                            {"mesh", tool::add_mesh},
-                                            {"edit", tool::add_edit},
-                                            {"check", tool::add_check},
-                                            {"trace", tool::add_trace}}};
+constexpr Command kCommands[] = {{"gen", tool::add_gen},     {"mesh", tool::add_mesh},
+                                 {"edit", tool::add_edit},
+#ifdef MESHER_HAS_VIEW
+                                 {"view", tool::add_view},
+#endif
+                                 {"check", tool::add_check}, {"trace", tool::add_trace}};
 
 // The one that is called, or all: each has some thirty options, which take longer to add than a
 // small mesh to make.
 void add_commands(CLI::App& app, std::string_view called) {
   const auto is_called = [&](const Command& c) { return c.name == called; };
-  const bool any = std::any_of(kCommands.begin(), kCommands.end(), is_called);
+  const bool any = std::any_of(std::begin(kCommands), std::end(kCommands), is_called);
   for (const Command& command : kCommands) {
     if (!any || is_called(command)) command.add(app);
   }

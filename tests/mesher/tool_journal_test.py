@@ -153,6 +153,8 @@ def killed(case, kills):
     """Kills at random moments, some of them of one that has resumed; the journal may be compacted."""
     resumed = 0
     for kill in range(kills):
+        if kill and kill % 100 == 0:
+            print(f"{kill} kills", flush=True)
         if case.rng.random() < 0.7:
             case.forget()
         more = case.rng.choice([(), ("--journal-sync",), ("--journal-limit", "2000")])

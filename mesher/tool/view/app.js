@@ -1,0 +1,739 @@
+// Tools, panels and commands. The server alone decides what the mesh is: the page sends what is
+// wanted and shows what comes.
+
+import {LEGENDS} from './gl.js';
+import {Mesh} from './mesh.js';
+import {Plane} from './plane.js';
+import {Space} from './space.js';
+import {Wire} from './wire.js';
+
+const $ = (id) => document.getElementById(id);
+const scene = $('scene'), marks = $('marks');
+
+const settings = {mode: 'region', changes: true, all: false, poor: false, below: 21, forced: false,
+  slivers: false, cut: null, only_marked: false,
+  // Bits: 1 poor, 2 above the bound, or a sliver.
+  judge(mesh, s) {
+    if (!mesh.is_kept(s)) return 0;
+    return (settings.poor && mesh.angle[s] < settings.below ? 1 : 0) |
+      ((settings.forced && mesh.is_forced(s)) || (settings.slivers && mesh.angle[s] < 5) ? 2 : 0);
+  }};
+
+let mesh = null, view = null, state = null, seeds = [];
+let tool = 'move', draft = [], hover = null, selected = null;
+let problems = [];  // errors: {text, places, features}
+let drag = null;    // {id, wanted, sent, tag}
+let gesture = null; // what the pointer does
+let frame_wanted = false, marks_stale = true, panel_stale = true;
+const sent = new Map();  // tag -> when
+const speed = {updates: 0, frames: 0, engine: [], trip: [], paint: [], decode: []};
+
+const is_space = () => mesh && mesh.dimension === 3;
+const shown = (x, digits = 3) => Number(x.toPrecision(digits)).toString();
+const text_of = (p) => '(' + p.map((x) => Number(x.toPrecision(8))).join(', ') + ')';
+
+// --- Tools ---------------------------------------------------------------------------------------
+
+const TOOLS = {
+  move: ['Move', 'Drag a point; drag elsewhere to move the view; click selects'],
+  point: ['Point', 'Click: a new point'],
+  segment: ['Segment', 'Click its two ends; near a point it takes that'],
+  polyline: ['Polyline', 'Click its points; Enter or a double click ends, Escape drops it'],
+  polygon: ['Polygon', 'Click its corners; Enter or a double click closes it'],
+  hole: ['Hole', 'Click where nothing is to be meshed'],
+  region: ['Region', 'Click into a region: it gets the attribute at the right'],
+  delete: ['Delete', 'Click a point, line, hole or region; lines go with their points'],
+};
+const ACTIONS = {
+  undo: ['Undo', () => command({do: 'undo'})],
+  redo: ['Redo', () => command({do: 'redo'})],
+  whole: ['All', () => { view.show_all(); wake(); }],
+};
+
+function make_tools() {
+  for (const [name, [label, hint]] of Object.entries(TOOLS)) {
+    const button = document.createElement('button');
+    button.textContent = label;
+    button.title = hint;
+    button.id = 'tool_' + name;
+    button.onclick = () => choose(name);
+    $('tools').append(button);
+  }
+  $('tools').append(document.createElement('hr'));
+  for (const [name, [label, act]] of Object.entries(ACTIONS)) {
+    const button = document.createElement('button');
+    button.textContent = label;
+    button.id = name;
+    button.onclick = act;
+    $('tools').append(button);
+  }
+}
+
+function choose(name) {
+  tool = name;
+  draft = [];
+  for (const key of Object.keys(TOOLS)) $('tool_' + key).classList.toggle('chosen', key === name);
+  scene.style.cursor = name === 'move' ? 'default' : 'crosshair';
+  $('hint').textContent = TOOLS[name][1];
+  wake(true);
+}
+
+// --- The server ----------------------------------------------------------------------------------
+
+const wire = new Wire(receive, (lost) => { $('lost').hidden = !lost; });
+
+function command(what) {
+  const tag = wire.send(what);
+  if (tag) sent.set(tag, performance.now());
+  return tag;
+}
+
+function receive(head, arrays, bytes) {
+  const began = performance.now();
+  if (head.state) state = head.state;
+  if (head.seeds) seeds = head.seeds;
+  if (head.kind === 'snapshot') load(head, arrays);
+  if (head.kind === 'change') {
+    mesh.apply(head, arrays, view);
+    speed.updates += 1;
+    speed.engine.push(head.seconds * 1000);
+    speed.decode.push(performance.now() - began);
+    show_update(head, bytes);
+  }
+  if (head.kind === 'error') report(head);
+  if (head.kind === 'fresh') show_fresh(head);
+  if (head.tag && sent.has(head.tag)) {
+    speed.trip.push(began - sent.get(head.tag));
+    sent.delete(head.tag);
+    if (drag && drag.tag === head.tag && head.kind !== 'dropped') {
+      drag.tag = 0;
+      follow_drag();
+    }
+    if (head.kind === 'change' && pending && pending.tag === head.tag) pending = null;
+    if (head.kind === 'error' && pending && pending.tag === head.tag) {
+      draft = pending.draft;  // what was drawn is not lost
+      pending = null;
+    }
+  }
+  panel_stale = true;
+  wake(head.kind !== 'change' || is_space() || !drag && (selected !== null || draft.length > 0) ||
+    head.seeds !== undefined);
+}
+
+function load(head, arrays) {
+  const first = mesh === null;
+  mesh = new Mesh(head, arrays);
+  document.body.classList.toggle('in_space', is_space());
+  if (first) {
+    view = is_space() ? new Space(scene, settings) : new Plane(scene, settings);
+    if (is_space()) take_cut();
+    document.title = head.name + ' - mesher view';
+    $('name').textContent = head.name;
+    $('histogram_title').textContent = is_space() ? 'Smallest dihedral angles' : 'Smallest angles';
+    $('below').value = settings.below = is_space() ? 10 :
+      Math.floor(Math.asin(1 / (2 * head.rho)) * 180 / Math.PI);
+    const formats = ['vtu', 'vtk', 'msh', 'inp', 'su2', 'mesh', 'off', 'obj', 'node', 'svg'];
+    if (is_space()) formats.push('stl');
+    for (const f of formats) $('format').add(new Option('.' + f, f));
+    take_format();
+    choose('move');
+  }
+  selected = null;
+  drag = null;
+  sent.clear();
+  view.load(mesh);
+  $('fresh_result').textContent = '';
+}
+
+// --- Panels --------------------------------------------------------------------------------------
+
+function rows(id, list) {
+  $(id).innerHTML = '';
+  for (const [name, value] of list) {
+    const row = $(id).insertRow();
+    row.insertCell().textContent = name;
+    row.insertCell().textContent = value;
+  }
+}
+
+function show_update(head, bytes) {
+  $('edit').textContent = head.edit;
+  const what = is_space() ? 'tetrahedra' : 'triangles';
+  last_seconds = head.seconds;
+  rows('update', [['engine', shown(head.seconds * 1000) + ' ms'],
+    [what + ' that came, went', `${head.came}, ${head.went}`],
+    ['vertices', `${head.vertices_came}, ${head.vertices_went}`],
+    ['calls that ran, were reused', `${head.executed}, ${head.reused}`],
+    ['message', bytes + ' bytes']]);
+}
+
+let last_seconds = 0;
+function show_fresh(head) {
+  $('fresh').disabled = false;
+  const ratio = last_seconds > 0 ? `, ${shown(head.seconds / last_seconds, 2)} times the last update`
+    : '';
+  $('fresh_result').textContent = `${shown(head.seconds * 1000)} ms${ratio}; ` +
+    (head.same ? 'the same mesh' : 'another mesh: please report this');
+}
+
+function report(head) {
+  $('fresh').disabled = false;
+  problems.unshift({text: head.text, places: head.places || [], features: head.features || []});
+  problems.length = Math.min(problems.length, 20);
+  show_problems();
+}
+
+function show_problems() {
+  $('errors').innerHTML = '';
+  for (const p of problems) {
+    const item = document.createElement('li');
+    item.textContent = p.text;
+    item.onclick = () => p.places.length > 0 && go_to(p.places[0]);
+    $('errors').append(item);
+  }
+  wake(true);
+}
+
+function go_to(place, size = 0) {
+  if (is_space()) {
+    view.show(place, size || view.side / 100);
+  } else {
+    const r = size || 60 * Math.min(view.pixel(), view.mesh.hi[0] - view.mesh.lo[0]);
+    view.show([place[0] - r, place[1] - r, place[0] + r, place[1] + r]);
+  }
+  wake();
+}
+
+let marked_at = 0;
+function go_to_marked() {
+  for (let i = 0; i < mesh.slots; ++i) {
+    const s = (marked_at + i) % mesh.slots;
+    if (!mesh.is_kept(s) || settings.judge(mesh, s) === 0) continue;
+    marked_at = s + 1;
+    const d = mesh.dimension, o = mesh.outline(s), place = [];
+    for (let k = 0; k < d; ++k) {
+      let sum = 0;
+      for (let c = 0; c <= d; ++c) sum += o[d * c + k];
+      place.push(sum / (d + 1));
+    }
+    let size = 0;
+    for (let c = 0; c <= d; ++c) {
+      size = Math.max(size, Math.hypot(...place.map((x, k) => x - o[d * c + k])));
+    }
+    return go_to(place, 4 * size);
+  }
+}
+
+function draw_histogram() {
+  const canvas = $('histogram'), g = canvas.getContext('2d'), {width, height} = canvas;
+  g.clearRect(0, 0, width, height);
+  const most = Math.max(1, ...mesh.bins), w = width / mesh.bins.length;
+  mesh.bins.forEach((count, i) => {
+    if (count === 0) return;
+    const h = Math.max(1, count / most * (height - 12));
+    g.fillStyle = i < settings.below ? '#cc4a33' : '#5b83b8';
+    g.fillRect(i * w, height - 10 - h, w - .5, h);
+  });
+  g.fillStyle = '#667';
+  g.font = '9px sans-serif';
+  for (let angle = 0; angle <= mesh.bins.length - 4; angle += 10) {
+    g.fillText(angle, angle * w, height - 1);
+  }
+  const least = mesh.bins.findIndex((count) => count > 0);
+  $('smallest').textContent = least < 0 ? 'nothing is kept' :
+    `from ${least} degrees; ${mesh.bins.slice(0, settings.below).reduce((a, b) => a + b, 0)} below ` +
+    settings.below;
+}
+
+let panel_at = 0;
+function draw_panel(now) {
+  if (!panel_stale || now - panel_at < 120) return panel_stale;
+  panel_stale = false;
+  panel_at = now;
+  rows('counts', [['vertices', state.vertices.toString()],
+    [is_space() ? 'tetrahedra' : 'triangles', state.simplices.toString()],
+    ['kept', state.kept.toString()], ['points', mesh.points.size.toString()]]);
+  $('undo').disabled = state.undo === 0;
+  $('redo').disabled = state.redo === 0;
+  $('journal').textContent = `${state.updates} update${state.updates === 1 ? '' : 's'} in ` +
+    state.journal;
+  $('legend').style.background = LEGENDS[settings.mode];
+  if ($('snap').checked && !is_space()) $('grid').textContent = 'of ' + shown(grid());
+  draw_histogram();
+  show_calls();
+  return false;
+}
+
+// The picture of the calls of the last update; its link has labels under the pointer.
+let calls_of = 0;
+function show_calls() {
+  $('calls').checked = state.calls !== null;
+  $('calls_link').hidden = !state.calls;
+  if (!state.calls || calls_of === state.calls) return;
+  calls_of = state.calls;
+  $('calls_link').href = $('calls_picture').src = 'calls.svg?' + calls_of;
+}
+
+// --- Marks over the picture ----------------------------------------------------------------------
+
+function draw_marks() {
+  // A canvas that is empty costs as much as one that is not.
+  const any = seeds.length > 0 || selected || draft.length > 0 || problems.length > 0 ||
+    (tool !== 'move' && hover !== null);
+  marks.style.visibility = any ? 'visible' : 'hidden';
+  if (!any) return;
+  const ratio = view.ratio, w = Math.round(marks.clientWidth * ratio);
+  const h = Math.round(marks.clientHeight * ratio);
+  if (marks.width !== w || marks.height !== h) [marks.width, marks.height] = [w, h];
+  const g = marks.getContext('2d');
+  g.setTransform(ratio, 0, 0, ratio, 0, 0);
+  g.clearRect(0, 0, w, h);
+  const ring = (place, radius, colour, width = 2) => {
+    const at = view.on_page(place);
+    if (!at) return;
+    g.strokeStyle = colour;
+    g.lineWidth = width;
+    g.beginPath();
+    g.arc(at[0], at[1], radius, 0, 7);
+    g.stroke();
+  };
+  for (const seed of seeds) {
+    const at = view.on_page(seed.at);
+    if (!at) continue;
+    g.fillStyle = seed.fault ? '#a01c14' : '#223';
+    g.font = 'bold 12px sans-serif';
+    const label = seed.kind === 'hole' ? '\u25cb hole' : `\u25c6 ${shown(seed.attribute)}`;
+    g.fillText(label, at[0] - 5, at[1] + 4);
+  }
+  if (selected) draw_selected(g, ring);
+  draw_draft(g, ring);
+  problems.forEach((p, i) => {
+    for (const place of p.places) {
+      ring(place.slice(0, mesh.dimension), 11, '#c8102e', 2.5);
+      if (i > 0) continue;
+      const at = view.on_page(place.slice(0, mesh.dimension));
+      if (!at) continue;
+      g.font = '12px sans-serif';
+      const text = p.text.length > 90 ? p.text.slice(0, 88) + ' ...' : p.text;
+      const left = Math.max(4, Math.min(at[0] + 16, marks.clientWidth - g.measureText(text).width - 8));
+      g.fillStyle = '#ffffffe8';
+      g.fillRect(left - 3, at[1] - 26, g.measureText(text).width + 6, 17);
+      g.fillStyle = '#a01c14';
+      g.fillText(text, left, at[1] - 13);
+    }
+  });
+}
+
+function draw_selected(g, ring) {
+  const [kind, id] = selected;
+  if (kind === 'point' && mesh.points.has(id)) ring(mesh.points.get(id), 8, '#e07a00', 2.5);
+  const seed = seeds.find((s) => s.kind === kind && s.id === id);
+  if (seed) ring(seed.at, 10, '#e07a00', 2.5);
+  if (kind !== 'line') return;
+  g.strokeStyle = '#e07a00';
+  g.lineWidth = 3;
+  g.beginPath();
+  const d = mesh.dimension;
+  for (let e = 0; e < mesh.edge_slots; ++e) {
+    if (mesh.edge_lines[e] !== id) continue;
+    const [a, b] = [0, 1].map((k) => {
+      const v = d * mesh.edges[2 * e + k];
+      return view.on_page(mesh.places.subarray(v, v + d));
+    });
+    if (!a || !b) continue;
+    g.moveTo(...a);
+    g.lineTo(...b);
+  }
+  g.stroke();
+}
+
+const place_of = (end) => typeof end === 'number' ? mesh.points.get(end) : end;
+
+function draw_draft(g, ring) {
+  const ends = draft.map(place_of).filter((p) => p);
+  if (tool !== 'move' && hover !== null && hover !== undefined) {
+    const p = place_of(hover);
+    if (p && tool !== 'delete') ends.push(p);
+    if (p) ring(p, 5, typeof hover === 'number' ? '#e07a00' : '#557');
+  }
+  if (draft.length === 0) return;
+  g.strokeStyle = '#1f4e9c';
+  g.lineWidth = 2;
+  g.setLineDash([6, 4]);
+  g.beginPath();
+  ends.map((p) => view.on_page(p)).filter((p) => p)
+    .forEach((p, i) => i === 0 ? g.moveTo(...p) : g.lineTo(...p));
+  if (tool === 'polygon' && ends.length > 2) g.closePath();
+  g.stroke();
+  g.setLineDash([]);
+}
+
+// --- Frames --------------------------------------------------------------------------------------
+
+function wake(with_marks = true) {
+  marks_stale = marks_stale || with_marks;
+  if (frame_wanted) return;
+  frame_wanted = true;
+  requestAnimationFrame(frame);
+}
+
+function frame(now) {
+  frame_wanted = false;
+  if (!mesh || !state) return;
+  const began = performance.now();
+  let more = view.frame(now);
+  if (marks_stale) draw_marks();
+  marks_stale = false;
+  more = draw_panel(now) || more;
+  speed.frames += 1;
+  speed.paint.push(performance.now() - began);
+  if (more || measuring) wake(false);
+}
+
+// --- The pointer ---------------------------------------------------------------------------------
+
+const at_pointer = (event) => {
+  const box = scene.getBoundingClientRect();
+  return [event.clientX - box.left, event.clientY - box.top];
+};
+
+function grid() {
+  return 10 ** Math.floor(Math.log10(40 * view.pixel()));
+}
+function snapped(place) {
+  if (!$('snap').checked || is_space()) return place;
+  const step = grid();
+  return place.map((x) => Math.round(x / step) * step);
+}
+
+// What a click there means for drawing: the id of a point, a position, or null.
+function end_at(x, y) {
+  const id = view.pick_point(x, y);
+  if (id !== null) return id;
+  if (!is_space()) return snapped(view.place(x, y));
+  const face = view.pick_face(x, y);
+  return face ? face.place : null;
+}
+
+let pending = null;  // {tag, draft}: a line that the server has not answered
+function finish() {
+  const marker = Math.round(Number($('marker').value) || 0);
+  const closed = tool === 'polygon';
+  if (draft.length < (closed ? 3 : 2)) return;
+  const what = closed && is_space() ? {do: 'polygon'} : {do: 'line', closed};
+  const tag = command({...what, through: draft, ...(marker ? {marker} : {})});
+  if (tag === 0) return;
+  pending = {tag, draft};
+  draft = [];
+  wake();
+}
+
+function click(x, y, event) {
+  if (tool === 'move') return select(x, y);
+  if (tool === 'delete') {
+    select(x, y);
+    return remove_selected();
+  }
+  if (tool === 'hole' || tool === 'region') {
+    const face = is_space() ? view.pick_face(x, y) : null;
+    const at = is_space() ? face && face.inside : view.place(x, y);
+    if (!at) return;
+    const attribute = Number($('attribute').value) || 0;
+    return command(tool === 'hole' ? {do: 'hole', at} : {do: 'region', at, attribute});
+  }
+  const end = end_at(x, y);
+  if (end === null) return;
+  if (tool === 'point') {
+    if (typeof end === 'number') return;  // there is one
+    const marker = Math.round(Number($('marker').value) || 0);
+    return command({do: 'point', at: end, ...(marker ? {marker} : {})});
+  }
+  const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
+  if (draft.length > 0 && same(draft[draft.length - 1], end)) {
+    if (event.detail > 1 && tool !== 'segment') finish();
+    return;
+  }
+  if (tool === 'polygon' && draft.length > 2 && same(draft[0], end)) return finish();
+  draft.push(end);
+  if (tool === 'segment' && draft.length === 2) finish();
+}
+
+function select(x, y) {
+  selected = null;
+  const id = view.pick_point(x, y);
+  const near = seeds.find((s) => {
+    const at = view.on_page(s.at);
+    return at && Math.hypot(at[0] - x, at[1] - y) < 12;
+  });
+  if (id !== null) {
+    selected = ['point', id];
+    $('hint').textContent = `point ${id} at ${text_of(mesh.points.get(id))}`;
+  } else if (near) {
+    selected = [near.kind, near.id];
+    $('hint').textContent = `${near.kind} ${near.id}` + (near.fault ? ': ' + near.fault : '');
+  } else {
+    const line = view.pick_line(x, y);
+    const face = line === null && is_space() ? view.pick_face(x, y) : null;
+    // Edges of polygons alone have the number -1 - id.
+    if (line !== null) selected = line < 0 && is_space() ? ['polygon', -1 - line] : ['line', line];
+    else if (face && face.polygon !== null) selected = ['polygon', face.polygon];
+    $('hint').textContent = selected ? selected.join(' ') : TOOLS[tool][1];
+  }
+  wake();
+}
+
+function remove_selected() {
+  if (selected) command({do: 'delete', features: [selected]});
+  selected = null;
+  wake();
+}
+
+scene.addEventListener('pointerdown', (event) => {
+  if (!mesh || measuring) return;
+  scene.setPointerCapture(event.pointerId);
+  scene.focus();
+  const [x, y] = at_pointer(event);
+  gesture = {x, y, from: [x, y], moved: false, button: event.button, shift: event.shiftKey};
+  if (tool !== 'move' || event.button !== 0) return;
+  const id = view.shows_points() || is_space() ? view.pick_point(x, y) : null;
+  if (id === null) return;
+  gesture.point = id;
+  gesture.start = mesh.points.get(id).slice();
+});
+
+scene.addEventListener('pointermove', (event) => {
+  if (!mesh || measuring) return;
+  const [x, y] = at_pointer(event);
+  if (!gesture) {
+    if (tool !== 'move') {
+      const draws = tool !== 'hole' && tool !== 'region' && tool !== 'delete';
+      // In space faces are many: where the pointer is on them only a click asks.
+      hover = !draws ? null : is_space() ? view.pick_point(x, y) : end_at(x, y);
+      wake();
+    }
+    return;
+  }
+  const dx = x - gesture.x, dy = y - gesture.y;
+  if (Math.hypot(x - gesture.from[0], y - gesture.from[1]) > 3) gesture.moved = true;
+  [gesture.x, gesture.y] = [x, y];
+  if (!gesture.moved) return;
+  if (gesture.point !== undefined) {
+    if (!drag) {
+      drag = {id: gesture.point, wanted: null, sent: null, tag: 0};
+      selected = ['point', gesture.point];
+    }
+    drag.wanted = dragged_to(gesture, x, y);
+    follow_drag();
+  } else if (is_space() && gesture.button === 0 && !gesture.shift) {
+    view.orbit(dx, dy);
+  } else {
+    view.pan(dx, dy);
+  }
+  wake(gesture.point === undefined);
+});
+
+function dragged_to(from, x, y) {
+  if (!is_space()) {
+    const a = view.place(...from.from), b = view.place(x, y);
+    return snapped(from.start.map((v, i) => v + b[i] - a[i]));
+  }
+  const axis = $('axis').selectedIndex;
+  const by = view.along(from.start, axis, x - from.from[0], y - from.from[1]);
+  return from.start.map((v, i) => i === axis ? v + by : v);
+}
+
+// Sends where the point is wanted, one position at a time.
+function follow_drag() {
+  if (!drag || drag.tag !== 0 || !drag.wanted) return;
+  if (drag.sent && drag.sent.every((v, i) => v === drag.wanted[i])) return;
+  drag.sent = drag.wanted;
+  drag.tag = command({do: 'drag', point: drag.id, at: drag.wanted});
+}
+
+function drop() {
+  if (!drag) return;
+  if (drag.wanted) command({do: 'drag', point: drag.id, at: drag.wanted, drop: true});
+  drag = null;
+  wake();
+}
+
+scene.addEventListener('pointerup', (event) => {
+  if (!gesture) return;
+  const [x, y] = at_pointer(event), was = gesture;
+  gesture = null;
+  if (drag) return drop();
+  if (!was.moved && was.button === 0) click(x, y, event);
+});
+scene.addEventListener('pointercancel', () => {
+  gesture = null;
+  drop();
+});
+scene.addEventListener('dblclick', () => {
+  if (tool === 'polyline' || tool === 'polygon') finish();
+});
+scene.addEventListener('contextmenu', (event) => event.preventDefault());
+scene.addEventListener('wheel', (event) => {
+  event.preventDefault();
+  if (!mesh) return;
+  const [x, y] = at_pointer(event);
+  view.zoom(Math.exp(-event.deltaY * (event.deltaMode === 1 ? .05 : .0015)), x, y);
+  panel_stale = true;
+  wake();
+}, {passive: false});
+
+window.addEventListener('keydown', (event) => {
+  if (event.target instanceof HTMLInputElement || !mesh) return;
+  const key = event.key;
+  if (key === 'Escape') {
+    draft = [];
+    selected = null;
+  } else if (key === 'Enter') {
+    finish();
+  } else if (key === 'Delete' || key === 'Backspace') {
+    remove_selected();
+  } else if ((event.ctrlKey || event.metaKey) && key.toLowerCase() === 'z') {
+    command({do: event.shiftKey ? 'redo' : 'undo'});
+    event.preventDefault();
+  } else if ((event.ctrlKey || event.metaKey) && key.toLowerCase() === 'y') {
+    command({do: 'redo'});
+    event.preventDefault();
+  } else if (is_space() && 'xyz'.includes(key) && key.length === 1) {
+    $('axis').selectedIndex = 'xyz'.indexOf(key);
+  } else {
+    return;
+  }
+  wake();
+});
+window.addEventListener('resize', () => wake());
+
+// --- Settings ------------------------------------------------------------------------------------
+
+function recolour() {
+  if (!view || !mesh) return;
+  view.recolour();
+  let marked = 0;
+  if (settings.poor || settings.forced || settings.slivers) {
+    for (let s = 0; s < mesh.slots; ++s) if (settings.judge(mesh, s) !== 0) ++marked;
+    $('marked').textContent = marked + ' marked';
+  } else {
+    $('marked').textContent = '';
+  }
+  panel_stale = true;
+  wake();
+}
+for (const input of document.querySelectorAll('input[name=mode]')) {
+  input.onchange = () => {
+    settings.mode = input.value;
+    panel_stale = true;
+    view.spoil();
+    wake();
+  };
+}
+$('changes').onchange = () => { settings.changes = $('changes').checked; };
+$('all').onchange = () => {
+  settings.all = $('all').checked;
+  view.spoil();
+  wake();
+};
+for (const id of ['poor', 'forced', 'slivers']) {
+  $(id).onchange = () => {
+    settings[id] = $(id).checked;
+    recolour();
+  };
+}
+$('below').onchange = () => {
+  settings.below = Math.round(Number($('below').value) || 0);
+  recolour();
+};
+$('only_marked').onchange = () => {
+  settings.only_marked = $('only_marked').checked;
+  recolour();
+};
+function take_cut() {
+  settings.cut = $('cut').checked
+    ? {axis: $('cut_axis').selectedIndex, at: Number($('cut_at').value) / 1000} : null;
+  if (view) view.spoil();
+  wake();
+}
+for (const id of ['cut', 'cut_axis', 'cut_at']) $(id).oninput = take_cut;
+$('snap').onchange = () => {
+  panel_stale = true;
+  if (!$('snap').checked) $('grid').textContent = '';
+  wake();
+};
+$('next_marked').onclick = go_to_marked;
+$('fresh').onclick = () => {
+  $('fresh').disabled = true;
+  $('fresh_result').textContent = 'running ...';
+  command({do: 'fresh'});
+};
+$('calls').onchange = () => command({do: 'calls', on: $('calls').checked});
+$('clear_errors').onclick = () => {
+  problems = [];
+  show_problems();
+};
+function take_format() {
+  $('save').href = 'save/mesh.' + $('format').value;
+}
+$('format').onchange = take_format;
+
+// --- Measuring -----------------------------------------------------------------------------------
+
+let measuring = false;
+const median = (list) => list.length === 0 ? 0 :
+  [...list].sort((a, b) => a - b)[Math.floor(list.length / 2)];
+
+// Drags the point in the middle of the view around for some seconds, and back. Gives figures.
+async function measure(seconds = 3) {
+  const middle = [scene.clientWidth / 2, scene.clientHeight / 2];
+  let id = null;
+  for (let reach = 8; id === null && reach < 4000; reach *= 2) id = view.pick_point(...middle, reach);
+  if (id === null) return null;
+  const start = mesh.points.get(id).slice();
+  let apart = Infinity;  // to the nearest other point
+  for (const [other, place] of mesh.points) {
+    if (other !== id) apart = Math.min(apart, Math.hypot(...place.map((x, i) => x - start[i])));
+  }
+  measuring = true;
+  Object.assign(speed, {updates: 0, frames: 0, engine: [], trip: [], paint: [], decode: []});
+  drag = {id, wanted: null, sent: null, tag: 0};
+  const began = performance.now();
+  let angle = 0;
+  wake();
+  await new Promise((done) => {
+    const step = () => {
+      const now = performance.now();
+      if (now - began > seconds * 1000) return done();
+      if (drag.tag === 0) {
+        angle += .35;
+        const r = .35 * apart;
+        drag.wanted = start.map((x, i) =>
+          x + (i === 0 ? r * Math.cos(angle) - r : i === 1 ? r * Math.sin(angle) : 0));
+        follow_drag();
+      }
+      setTimeout(step, 0);
+    };
+    step();
+  });
+  const took = (performance.now() - began) / 1000;
+  const result = {point: id, triangles: state.simplices, kept: state.kept,
+    frames: speed.frames / took, updates: speed.updates / took, engine_ms: median(speed.engine),
+    trip_ms: median(speed.trip), paint_ms: median(speed.paint), apply_ms: median(speed.decode)};
+  drag.wanted = start;
+  measuring = false;
+  drop();
+  rows('speed', [['updates a second', shown(result.updates)],
+    ['frames a second', shown(result.frames)], ['engine', shown(result.engine_ms) + ' ms'],
+    ['round trip', shown(result.trip_ms) + ' ms'], ['page: change', shown(result.apply_ms) + ' ms'],
+    ['page: paint', shown(result.paint_ms) + ' ms']]);
+  return result;
+}
+$('measure').onclick = () => measure();
+
+make_tools();
+// For tests: what the page knows.
+window.mesher = {
+  get mesh() { return mesh; }, get view() { return view; }, get state() { return state; },
+  get seeds() { return seeds; }, get problems() { return problems; }, get draft() { return draft; },
+  get busy() { return sent.size > 0 || frame_wanted; }, measure, command, settings, go_to,
+};

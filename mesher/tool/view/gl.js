@@ -1,0 +1,59 @@
+// WebGL 2: programs, and colours that both views use.
+
+export function make_program(gl, vertex, fragment) {
+  const program = gl.createProgram();
+  for (const [type, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+    const shader = gl.createShader(type);
+    gl.shaderSource(shader, '#version 300 es\nprecision highp float;\n' + text);
+    gl.compileShader(shader);
+    if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) {
+      throw new Error(gl.getShaderInfoLog(shader));
+    }
+    gl.attachShader(program, shader);
+  }
+  gl.linkProgram(program);
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) {
+    throw new Error(gl.getProgramInfoLog(program));
+  }
+  const at = {program};
+  const uniforms = gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS);
+  for (let i = 0; i < uniforms; ++i) {
+    const {name} = gl.getActiveUniform(program, i);
+    at[name] = gl.getUniformLocation(program, name);
+  }
+  return at;
+}
+
+// `judged`: quality, size and region as bytes, and marks (bits: 1 poor, 2 forced or sliver).
+// `mode`: 0 region, 1 quality, 2 size.
+export const COLOUR = `
+uniform int mode;
+vec3 ramp(float t) {
+  vec3 low = vec3(.80, .16, .12), middle = vec3(.97, .84, .45), high = vec3(.80, .90, .93);
+  return t < .5 ? mix(low, middle, t * 2.) : mix(middle, high, t * 2. - 1.);
+}
+vec3 depth(float t) {
+  vec3 low = vec3(.16, .23, .48), middle = vec3(.20, .60, .57), high = vec3(.97, .94, .72);
+  return t < .5 ? mix(low, middle, t * 2.) : mix(middle, high, t * 2. - 1.);
+}
+vec3 region(float label) {
+  if (label < .5) return vec3(.94, .94, .93);
+  if (label < 1.5) return vec3(.87, .91, .96);
+  float h = fract(label * .381966) * 6.;
+  vec3 c = clamp(abs(mod(h + vec3(0., 4., 2.), 6.) - 3.) - 1., 0., 1.);
+  return mix(vec3(1.), c, .30) * .97;
+}
+vec3 colour(vec4 judged) {
+  int marks = int(judged.w + .5);
+  if ((marks & 2) != 0) return vec3(.78, .10, .50);
+  if ((marks & 1) != 0) return vec3(.90, .25, .15);
+  if (mode == 1) return judged.z < .5 ? region(0.) : ramp(judged.x / 255.);
+  if (mode == 2) return judged.z < .5 ? region(0.) : depth(judged.y / 255.);
+  return region(judged.z);
+}
+`;
+export const LEGENDS = {
+  region: 'linear-gradient(90deg, #dee8f5, #dee8f5)',
+  quality: 'linear-gradient(90deg, #cc291f, #f7d673, #cce6ed)',
+  size: 'linear-gradient(90deg, #293b7a, #339991, #f7f0b8)',
+};

@@ -1,0 +1,532 @@
+// Commands of pages as edits, their journal and history, and changes as messages.
+#include "model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "archive.hpp"
+#include "call_picture.hpp"
+#include "fields.hpp"
+#include "first_run.hpp"
+#include "graph_edits.hpp"
+#include "input_index.hpp"
+#include "mesh_arrays.hpp"
+#include "mesher/mesher.hpp"
+#include "message.hpp"
+#include "no_flat.hpp"
+#include "outputs.hpp"
+#include "progress.hpp"
+#include "report.hpp"
+#include "scratch_folder.hpp"
+
+namespace tool::view {
+namespace {
+
+namespace fs = std::filesystem;
+using mesher::Edit;
+using mesher::Error;
+using mesher::ErrorCode;
+using mesher::Feature;
+using mesher::Graph;
+using mesher::PointId;
+
+constexpr const char* kPage = "the page";  // where its edits stand
+
+template <int D>
+class ModelOf final : public Model {
+ public:
+  ModelOf(const MeshArguments& args, const JournalArguments& journal)
+      : args_(args),
+        input_(read_input<D>(args)),
+        mesher_(locating(input_, [&] { return mesher::Mesher<D>(mesh_options(args, input_)); })),
+        index_(mesher_),
+        journal_(journal, args, input_, mesher_.options()),
+        progress_(args.quiet, D) {
+    names_ = input_.graph().names;
+    names_.add(names_of(args, D));
+    mesher::require_names(names_);
+    if (!args.quiet) print_journal(journal_);
+    insert_all(input_, mesher_, progress_);
+    for (const Feature& f : view::features_of(input_.graph())) require_showable(f);
+    index_.take(input_.graph());
+    replay();
+    mesher_.keep_slots(true);
+    kept_ = count_kept(mesher_);
+    progress_.erase();
+    if (!args.quiet) print_remarks(args_, input_, mesher_.domain_mesh());
+  }
+
+  std::string snapshot() override;
+  Work command(ClientId client, const std::string& text, const Send& send) override;
+  void left(ClientId client, const Send& send) override {
+    if (drag_ && drag_->client == client) settle(send);
+  }
+  SavedFile saved(const std::string& name, const Send& send) override;
+  std::string calls() const override { return calls_ ? calls_->picture() : ""; }
+  std::string summary() const override {
+    const auto stats = mesher_.stats();
+    return std::to_string(stats.vertices) + " vertices, " + std::to_string(stats.simplices) +
+           (D == 2 ? " triangles" : " tetrahedra") + " in the box; journal " +
+           journal_.file().path();
+  }
+  void finish(const Send& send) override { settle(send); }
+
+ private:
+  using Lines = std::vector<std::string>;
+  using Edits = std::vector<Edit<D>>;
+  using Made = mesher::Update<D, mesher::DomainUpdate<D>>;
+  struct Done {  // an update in the history
+    Lines again, back;
+  };
+  struct Drag {
+    ClientId client = 0;
+    PointId point{};
+    mesher::Point<D> from{};
+    bool moved = false;
+  };
+  enum class Why { edit, undo, redo };
+
+  void replay();
+  static void require_showable(const Feature& feature);
+  static Lines texts_of(const Edits& edits);
+  static Edits edits_of(const Lines& lines);
+  static std::set<Feature> features_of(const Edits& edits);
+
+  void run_script(const Json& command, const Send& send);
+
+  void change(const Lines& lines, Why why, const Json& tag, const Send& send);
+  void drag(ClientId client, const Json& command, const Json& tag, const Send& send);
+  void settle(const Send& send);
+  void go_back(bool redo, const Json& tag, const Send& send);
+  void record(const Edits& edits, Why why, const Lines& back);
+  void remember(Why why, Lines again, Lines back);
+  Made update(Edits edits);
+  Work fresh(const Json& tag);
+  void watch_calls(const Json& command, const Json& tag, const Send& send);
+  void draw_calls(const Send& send);
+
+  // Messages.
+  [[nodiscard]] Json state() const;
+  void send_change(const Made& update, const std::set<Feature>& features, const Json& tag,
+                   const Send& send);
+
+  MeshArguments args_;
+  Input<D> input_;
+  mesher::Mesher<D> mesher_;
+  InputIndex<D> index_;
+  EditJournal<D> journal_;
+  Progress progress_;
+  mesher::GroupNames names_;
+  std::vector<Done> undo_, redo_;
+  std::optional<Drag> drag_;
+  std::unique_ptr<CallPicture> calls_;  // null: not wanted
+  std::uint64_t calls_of_ = 0;          // the revision of the picture
+  std::size_t kept_ = 0;
+  std::uint64_t revision_ = 0;
+};
+
+template <int D>
+void ModelOf<D>::require_showable(const Feature& feature) {
+  if (std::abs(static_cast<double>(feature.number)) < static_cast<double>(kLargestId)) return;
+  throw Error(ErrorCode::bad_option, text_of(feature) + ": ids beyond 2^53 cannot be viewed");
+}
+
+template <int D>
+typename ModelOf<D>::Lines ModelOf<D>::texts_of(const Edits& edits) {
+  Lines lines;
+  for (const auto& edit : edits) lines.push_back(edit.text);
+  return lines;
+}
+
+template <int D>
+typename ModelOf<D>::Edits ModelOf<D>::edits_of(const Lines& lines) {
+  auto script = mesher::EditScript<D>::of_text(script_of(lines), kPage);
+  auto edits = script.next();
+  if (!edits) throw refusal("nothing is edited");
+  return std::move(*edits);
+}
+
+template <int D>
+std::set<Feature> ModelOf<D>::features_of(const Edits& edits) {
+  std::set<Feature> features;
+  for (const auto& edit : edits) {
+    if (edit.kind != mesher::EditKind::limit) features.insert(edit.feature());
+  }
+  return features;
+}
+
+template <int D>
+typename ModelOf<D>::Made ModelOf<D>::update(Edits edits) {
+  try {
+    input_.follow(edits);
+    Watched watched(mesher_, progress_);
+    return mesher::apply(std::move(edits), watched);
+  } catch (const Error& error) {
+    throw with_domain_hint<D>(error);
+  }
+}
+
+template <int D>
+void ModelOf<D>::replay() {
+  while (auto found = journal_.next_found()) {
+    const auto features = features_of(found->edits);
+    for (const Feature& f : features) require_showable(f);
+    const Graph<D> before = index_.part(features);
+    const Lines again = texts_of(found->edits);
+    const bool limits = features.size() != found->edits.size() &&
+                        std::any_of(found->edits.begin(), found->edits.end(), [](const auto& e) {
+                          return e.kind == mesher::EditKind::limit;
+                        });
+    locating(input_, [&] { return update(std::move(found->edits)); });
+    const Graph<D> after = index_.part(features);
+    index_.take(after);
+    const bool folded = found->text.starts_with("# folded");
+    if (limits || folded) {  // of limits nothing can be undone here
+      undo_.clear();
+      redo_.clear();
+      continue;
+    }
+    const Why why = found->text.starts_with("# undo")   ? Why::undo
+                    : found->text.starts_with("# redo") ? Why::redo
+                                                        : Why::edit;
+    remember(why, again, graph_edits<D>(after, before));
+  }
+}
+
+template <int D>
+void ModelOf<D>::remember(Why why, Lines again, Lines back) {
+  if (why == Why::undo && !undo_.empty()) {
+    redo_.push_back(std::move(undo_.back()));
+    undo_.pop_back();
+  } else if (why == Why::redo && !redo_.empty()) {
+    undo_.push_back(std::move(redo_.back()));
+    redo_.pop_back();
+  } else {
+    undo_.push_back({std::move(again), std::move(back)});
+    redo_.clear();
+  }
+}
+
+template <int D>
+void ModelOf<D>::run_script(const Json& command, const Send& send) {
+  const Json& text = field(command, "text");
+  if (!text.is_string()) throw refusal("'text' is no text");
+  const Json tag = command.value("tag", Json());
+  auto script = mesher::EditScript<D>::of_text(text.get<std::string>(), kPage);
+  // Limits may name files, which a page has no business with.
+  std::istringstream words(text.get<std::string>());
+  for (std::string word; words >> word;) {
+    if (word == "limit") throw refusal("limits are edited by 'mesher edit'");
+  }
+  std::vector<Lines> batches;
+  while (const auto edits = script.next()) {
+    if (!edits->empty()) batches.push_back(texts_of(*edits));
+  }
+  if (batches.empty()) throw refusal("nothing is edited");
+  for (const Lines& batch : batches) change(batch, Why::edit, tag, send);
+}
+
+template <int D>
+Model::Work ModelOf<D>::command(ClientId client, const std::string& text, const Send& send) {
+  Json tag;
+  const auto answer = [&](const Json& json) { send({text_of_json(json), false, false}); };
+  try {
+    const Json command = Json::parse(text, nullptr, false);
+    if (!command.is_object()) throw refusal("a command is a JSON object");
+    const auto tagged = command.find("tag");
+    if (tagged != command.end() && tagged->is_number()) tag = *tagged;
+    const Json& what = field(command, "do");
+    if (!what.is_string()) throw refusal("'do' is no text");
+    const std::string name = what.get<std::string>();
+    if (name == "drag") {
+      drag(client, command, tag, send);
+      return {};
+    }
+    settle(send);
+    if (name == "undo" || name == "redo") {
+      go_back(name == "redo", tag, send);
+    } else if (name == "snapshot") {
+      send({snapshot(), true, false});
+    } else if (name == "fresh") {
+      return fresh(tag);
+    } else if (name == "calls") {
+      watch_calls(command, tag, send);
+    } else if (name == "script") {
+      run_script(command, send);
+    } else if (name == "point" || name == "line" || name == "polygon" || name == "hole" ||
+               name == "region" || name == "delete") {
+      change(index_.lines_of(command), Why::edit, tag, send);
+    } else {
+      throw refusal("no command is called '" + name.substr(0, 40) + "'");
+    }
+  } catch (const Error& error) {
+    answer(json_of_error(error, tag));
+  } catch (const std::bad_alloc&) {
+    answer(json_of_error(Error(ErrorCode::too_many, "out of memory"), tag));
+  }
+  return {};
+}
+
+// --- Updates ---------------------------------------------------------------------------------
+
+// Puts an update that was made into journal and history. Throws: Error(cannot_write), and then it
+// is to be taken back.
+template <int D>
+void ModelOf<D>::record(const Edits& edits, Why why, const Lines& back) {
+  journal_.append(edits, "", why == Why::undo ? "# undo\n" : why == Why::redo ? "# redo\n" : "");
+  remember(why, texts_of(edits), back);
+}
+
+template <int D>
+void ModelOf<D>::change(const Lines& lines, Why why, const Json& tag, const Send& send) {
+  Edits edits = edits_of(lines);
+  const auto features = features_of(edits);
+  for (const Feature& f : features) require_showable(f);
+  if (journal_.is_long()) journal_.make_room(mesher_.input());
+  const Graph<D> before = index_.part(features);
+  auto made = update(edits);
+  const Graph<D> after = index_.part(features);
+  index_.take(after);
+  const Lines back = graph_edits<D>(after, before);
+  try {
+    record(edits, why, back);
+  } catch (const Error&) {
+    if (!back.empty()) update(edits_of(back));
+    kept_ = count_kept(mesher_);
+    send({snapshot(), true, true});  // pages know neither the update nor the other
+    throw;
+  }
+  send_change(made, features, tag, send);
+  draw_calls(send);
+}
+
+template <int D>
+void ModelOf<D>::drag(ClientId client, const Json& command, const Json& tag, const Send& send) {
+  const PointId point{id_of(field(command, "point"))};
+  const auto to = position_of_json<D>(field(command, "at"));
+  const bool drops = flag_of(command, "drop");
+  if (drag_ && (drag_->client != client || drag_->point != point)) settle(send);
+  const auto was = mesher_.point(point);
+  if (!was) throw Error(ErrorCode::unknown_id, text_of(Feature(point)) + " is not there");
+  if (!drag_) drag_ = Drag{client, point, was->at, false};
+  std::optional<Error> refused;
+  if (was->at != to) {
+    try {
+      Edits edits = edits_of({"move" + id_word(point) + place_words<D>(to)});
+      const auto made = update(std::move(edits));
+      drag_->moved = true;
+      send_change(made, {Feature(point)}, tag, send);
+    } catch (const Error& error) {
+      refused = error;
+    }
+  } else if (!drops) {
+    send({Json{{"kind", "still"}, {"tag", tag}}.dump(), false, false});
+  }
+  if (drops) {
+    settle(send);
+    send({Json{{"kind", "dropped"}, {"tag", tag}, {"state", state()}}.dump(), false, false});
+  }
+  if (refused) throw *refused;
+}
+
+// Ends a drag: what it did is one update.
+template <int D>
+void ModelOf<D>::settle(const Send& send) {
+  if (!drag_) return;
+  const Drag dragged = *drag_;
+  drag_.reset();
+  const auto now = mesher_.point(dragged.point);
+  if (!dragged.moved || !now || now->at == dragged.from) return;
+  const Edits edits = edits_of({"move" + id_word(dragged.point) + place_words<D>(now->at)});
+  const Lines back{"move" + id_word(dragged.point) + place_words<D>(dragged.from)};
+  try {
+    record(edits, Why::edit, back);
+  } catch (const Error& error) {
+    send_change(update(edits_of(back)), {Feature(dragged.point)}, Json(), send);
+    send({text_of_json(json_of_error(error, Json())), false, true});
+    return;
+  }
+  send({Json{{"kind", "state"}, {"state", state()}}.dump(), false, true});
+  draw_calls(send);
+}
+
+template <int D>
+void ModelOf<D>::go_back(bool redo, const Json& tag, const Send& send) {
+  const auto& from = redo ? redo_ : undo_;
+  if (from.empty())
+    throw refusal(redo ? "there is nothing to do again" : "there is nothing to undo");
+  const Lines lines = redo ? from.back().again : from.back().back;
+  if (!lines.empty()) return change(lines, redo ? Why::redo : Why::undo, tag, send);
+  remember(redo ? Why::redo : Why::undo, {}, {});  // what it changed nothing of
+  send({Json{{"kind", "state"}, {"state", state()}, {"tag", tag}}.dump(), false, true});
+}
+
+template <int D>
+void ModelOf<D>::watch_calls(const Json& command, const Json& tag, const Send& send) {
+  calls_.reset();
+  calls_of_ = 0;
+  if (flag_of(command, "on")) {
+    calls_ = std::make_unique<CallPicture>(mesher_.engine(), mesher_.stats().calls);
+  }
+  send({Json{{"kind", "state"}, {"state", state()}, {"tag", tag}}.dump(), false, true});
+}
+
+// After an update that is in the journal: those of a drag on its way are drawn as one.
+template <int D>
+void ModelOf<D>::draw_calls(const Send& send) {
+  if (!calls_) return;
+  try {
+    calls_->follow(mesher_.engine(), mesher_.stats().calls);
+    calls_of_ = revision_;
+  } catch (const Error& error) {
+    calls_.reset();
+    send({text_of_json(json_of_error(error, Json())), false, true});
+  }
+  send({Json{{"kind", "state"}, {"state", state()}}.dump(), false, true});
+}
+
+template <int D>
+Model::Work ModelOf<D>::fresh(const Json& tag) {
+  auto options = mesher_.options();
+  options.algorithm = mesher::Algorithm::gap_balls;
+  auto graph = std::make_shared<const Graph<D>>(mesher_.input());
+  auto mesh = std::make_shared<const mesher::MeshData<D>>(mesher_.mesh());
+  const std::uint64_t revision = revision_;
+  return [options, graph, mesh, revision, tag]() -> std::string {
+    try {
+      const double start = mesher::now();
+      const auto made = mesher::mesh(*graph, options);
+      const double seconds = mesher::now() - start;
+      const mesher::Mesh<D>&a = made.mesh, &b = *mesh;
+      return Json{{"kind", "fresh"},
+                  {"seconds", seconds},
+                  {"vertices", made.mesh.vertices.size()},
+                  {"simplices", made.mesh.simplices.size()},
+                  {"same", a == b},
+                  {"revision", revision},
+                  {"tag", tag}}
+          .dump();
+    } catch (const Error& error) {
+      return text_of_json(json_of_error(error, tag));
+    } catch (const std::bad_alloc&) {
+      return json_of_error(Error(ErrorCode::too_many, "out of memory"), tag).dump();
+    }
+  };
+}
+
+// --- Messages --------------------------------------------------------------------------------
+
+template <int D>
+Json ModelOf<D>::state() const {
+  const auto live = mesher_.live();
+  return {{"revision", revision_},
+          {"vertices", live.vertices()},
+          {"simplices", live.simplex_count()},
+          {"kept", kept_},
+          {"undo", undo_.size()},
+          {"redo", redo_.size()},
+          {"updates", journal_.file().place().updates},
+          {"calls", calls_ ? Json(calls_of_) : Json()},
+          {"journal", journal_.file().path()}};
+}
+
+template <int D>
+std::string ModelOf<D>::snapshot() {
+  Message message;
+  const auto& domain = mesher_.options().domain;
+  message.head = {{"kind", "snapshot"},
+                  {"dimension", D},
+                  {"name", fs::path(args_.source).filename().string()},
+                  {"rho", mesher_.options().rho},
+                  {"lo", domain.lo},
+                  {"hi", domain.hi},
+                  {"state", state()},
+                  {"seeds", json_of_seeds(mesher_, index_.seeds())},
+                  {"arrays", Json::array()}};
+  add_mesh(mesher_, message);
+  return message.bytes();
+}
+
+template <int D>
+void ModelOf<D>::send_change(const Made& update, const std::set<Feature>& features, const Json& tag,
+                             const Send& send) {
+  const auto& change = update.change;
+  const mesher::SlotChange& slots = change.slots;
+  kept_ = kept_ + change.domain.kept_added.size() - change.domain.kept_removed.size();
+  ++revision_;
+  Message message;
+  message.head = {{"kind", "change"},
+                  {"seconds", update.seconds},
+                  {"executed", change.calls.executed},
+                  {"reused", change.calls.reused},
+                  {"came", slots.simplices_added.size()},
+                  {"went", slots.simplices_removed.size()},
+                  {"vertices_came", slots.vertices_added.size()},
+                  {"vertices_went", slots.vertices_removed.size()},
+                  {"edit", update.text().substr(0, 200)},
+                  {"state", state()},
+                  {"tag", tag},
+                  {"arrays", Json::array()}};
+  const bool seeded = std::any_of(features.begin(), features.end(),
+                                  [](const Feature& f) { return f.seed().has_value(); });
+  // Lines that come or go may give a seed its region, or take it.
+  const bool may_move =
+      !index_.seeds().empty() && !(slots.edges_added.empty() && slots.edges_removed.empty());
+  if (seeded || may_move) {
+    message.head["seeds"] = json_of_seeds(mesher_, index_.seeds());
+  }
+  add_change(mesher_, change, message);
+  std::vector<double> gone;
+  for (const Feature& f : features) {
+    if (f.point() && !mesher_.point(*f.point())) gone.push_back(static_cast<double>(f.number));
+  }
+  message.add("points_removed", gone);
+  add_points(index_.part(features), message);
+  send({message.bytes(), true, true});
+}
+
+template <int D>
+SavedFile ModelOf<D>::saved(const std::string& name, const Send& send) {
+  settle(send);
+  const std::string stem = fs::path(args_.source).stem().string();
+  if (name == "edits.txt") return {stem + ".edits.txt", "text/plain", journal_.file().script()};
+  const ScratchFolder folder;
+  if (name == "input.poly") {
+    mesher::write_graph(mesher_.input(), (folder.path() / (stem + ".edited.poly")).string());
+  } else {
+    const std::string format = mesher::format_of(name);
+    if (name != "mesh" + format) throw Error(ErrorCode::unknown_format, "no file is called so");
+    Outputs<D> outputs;
+    outputs.set_names(names_);
+    mesher::WriteOptions options;
+    if (args_.order == "2") options.order = 2;
+    if (args_.msh_version == "2.2") options.msh = mesher::MshVersion::v2_2;
+    outputs.open_mesh(
+        (folder.path() / (stem + format)).string(),
+        input_.has_features() ? mesher::MeshFiles::features : mesher::MeshFiles::plain, options);
+    outputs.write(kept_of<D>(args_, mesher_));
+    outputs.commit();
+  }
+  auto files = files_in(folder.path());
+  if (files.size() == 1) {
+    return {files[0].name, "application/octet-stream", std::move(files[0].content)};
+  }
+  return {stem + ".node.tar", "application/x-tar", tar_of(files)};
+}
+
+}  // namespace
+
+std::unique_ptr<Model> make_model(const MeshArguments& args, const JournalArguments& journal) {
+  if (dimension_of(args) == 3) return std::make_unique<ModelOf<3>>(args, journal);
+  return std::make_unique<ModelOf<2>>(args, journal);
+}
+
+}  // namespace tool::view

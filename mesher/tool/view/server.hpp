@@ -1,0 +1,59 @@
+// A server of pages and web sockets for one user on this machine, by Boost.Beast.
+//
+// Guarantees:
+//   (1) it listens on the loopback address alone;
+//   (2) a request is answered only if its path begins with the token, 128 random bits, if its Host
+//       is this server, and if its Origin, which a web socket must have, is this server: so no page
+//       of another site can read or edit, whatever name it gives to this machine;
+//   (3) callbacks are called one at a time, on the thread that calls run();
+//   (4) a page that does not read what it is sent costs a bounded amount of memory: what waits is
+//       dropped, and `joined` is called for it again when it reads.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace tool::view {
+
+struct HttpReply {
+  unsigned status = 200;
+  std::string type;  // of the content
+  std::string content;
+  std::string saved_as;  // a name: to be saved, not shown
+};
+
+class Server {
+ public:
+  using ClientId = std::uint64_t;
+  using Bytes = std::shared_ptr<const std::string>;
+  struct Callbacks {
+    std::function<HttpReply(const std::string& path)> get;  // path: behind the token, "page.js"
+    std::function<void(ClientId)> joined, left;             // of web sockets
+    std::function<void(ClientId, std::string)> message;
+  };
+
+  /// `port`: 0 for any. Throws: Error(bad_option) if it cannot listen there.
+  Server(std::uint16_t port, Callbacks callbacks);
+  ~Server();
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  /// http://127.0.0.1:PORT/TOKEN/
+  [[nodiscard]] const std::string& address() const noexcept;
+
+  void send(ClientId client, Bytes bytes, bool binary);
+  void broadcast(const Bytes& bytes, bool binary);
+  /// Calls `work` on the thread of run(). May be called on any thread.
+  void post(std::function<void()> work);
+  /// Serves until `goes_on`, asked ten times a second, is false.
+  void run(std::function<bool()> goes_on);
+
+  struct Impl;
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tool::view

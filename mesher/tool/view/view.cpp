@@ -1,0 +1,196 @@
+// mesher view: a mesh in a browser, which follows what is done to it there.
+#include <charconv>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "arguments.hpp"
+#include "cancel.hpp"
+#include "commands.hpp"
+#include "edit_journal.hpp"
+#include "model.hpp"
+#include "pages.hpp"
+#include "server.hpp"
+
+namespace tool {
+namespace {
+
+using view::Model;
+using view::Outgoing;
+using view::Server;
+
+struct ViewArguments : MeshArguments {
+  JournalArguments journal;
+  std::string port = "0";
+};
+
+std::uint16_t port_of(const std::string& text) {
+  std::uint16_t port = 0;
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, port);
+  if (result.ec == std::errc{} && result.ptr == end) return port;
+  throw mesher::Error(mesher::ErrorCode::bad_option,
+                      "--port '" + text + "': not a whole number up to 65535");
+}
+
+view::HttpReply page_reply(Model& model, const std::string& path, const Model::Send& send) {
+  const std::string saved = "save/";
+  if (path == "calls.svg" || path.starts_with("calls.svg?")) {
+    std::string picture = model.calls();
+    if (picture.empty()) return {404, "text/plain", "no calls are drawn\n", ""};
+    return {200, "image/svg+xml", std::move(picture), ""};
+  }
+  if (!path.starts_with(saved)) {
+    if (const auto* page = view::find_page(path)) {
+      return {200, std::string(page->type), std::string(page->content), ""};
+    }
+    return {404, "text/plain", "not found\n", ""};
+  }
+  try {
+    auto file = model.saved(path.substr(saved.size()), send);
+    return {200, file.type, std::move(file.content), file.name};
+  } catch (const mesher::Error& error) {
+    return {409, "text/plain", std::string(error.what()) + "\n", ""};
+  }
+}
+
+// The model behind the server: answers go to one page or to all.
+class View {
+ public:
+  View(std::unique_ptr<Model> model, std::uint16_t port)
+      : model_(std::move(model)),
+        server_(
+            port,
+            {.get =
+                 [this](const std::string& path) { return page_reply(*model_, path, sender(0)); },
+             .joined =
+                 [this](Server::ClientId client) {
+                   server_.send(client, bytes(model_->snapshot()), true);
+                 },
+             .left = [this](Server::ClientId client) { model_->left(client, sender(client)); },
+             .message = [this](Server::ClientId client,
+                               const std::string& text) { take(client, text); }}) {}
+  ~View() {
+    for (auto& thread : threads_) thread.join();
+  }
+  View(const View&) = delete;
+  View& operator=(const View&) = delete;
+
+  [[nodiscard]] const std::string& address() const { return server_.address(); }
+  void run() {
+    server_.run([] { return !interrupted(); });
+    model_->finish(sender(0));
+  }
+  [[nodiscard]] const Model& model() const { return *model_; }
+
+ private:
+  static Server::Bytes bytes(std::string text) {
+    return std::make_shared<const std::string>(std::move(text));
+  }
+
+  Model::Send sender(Server::ClientId client) {
+    return [this, client](Outgoing out) {
+      auto shared = bytes(std::move(out.bytes));
+      if (out.to_all) {
+        server_.broadcast(shared, out.binary);
+      } else {
+        server_.send(client, std::move(shared), out.binary);
+      }
+    };
+  }
+
+  void take(Server::ClientId client, const std::string& text) {
+    Model::Work work = model_->command(client, text, sender(client));
+    if (!work) return;
+    if (running_ > 0)
+      return server_.send(client,
+                          bytes(R"({"kind":"error","code":"bad_edit",)"
+                                R"("text":"a fresh run is under way",)"
+                                R"("places":[],"features":[]})"),
+                          false);
+    ++running_;
+    for (auto& thread : threads_) thread.join();  // they are done
+    threads_.clear();
+    threads_.emplace_back([this, client, work = std::move(work)] {
+      std::string answer = work();
+      server_.post([this, client, answer = std::move(answer)] {
+        --running_;
+        server_.send(client, bytes(answer), false);
+      });
+    });
+  }
+
+  std::unique_ptr<Model> model_;
+  std::vector<std::thread> threads_;
+  int running_ = 0;
+  Server server_;
+};
+
+// A journal that nobody asked for may be in a folder that one may not write to.
+std::unique_ptr<Model> model_of(const ViewArguments& args, const JournalArguments& journal) {
+  try {
+    return view::make_model(args, journal);
+  } catch (const mesher::Error& error) {
+    if (error.code() != mesher::ErrorCode::cannot_write || !args.journal.path.empty()) throw;
+    throw error.with_message(error.message() + "; --journal FILE records updates elsewhere");
+  }
+}
+
+void run_view(const ViewArguments& args) {
+  const std::uint16_t port = port_of(args.port);
+  if (args.is_static || !args.stats.empty() || !args.outputs.empty()) {
+    throw mesher::Error(mesher::ErrorCode::bad_option,
+                        "-o, --static and --stats are for 'mesher edit'; the page saves files");
+  }
+  JournalArguments journal = args.journal;
+  if (journal.path.empty()) {
+    if (args.source != args.input) {
+      throw mesher::Error(mesher::ErrorCode::bad_option,
+                          "INPUT is a pipe or has --format: --journal FILE is needed",
+                          {args.source});
+    }
+    journal.path = args.source + ".journal";
+  }
+  View view(model_of(args, journal), port);
+  std::printf("%s\n", view.address().c_str());
+  std::fflush(stdout);
+  if (!args.quiet) {
+    std::fprintf(stderr, "%s: %s\nThe page is at the address above; Ctrl-C ends.\n",
+                 args.source.c_str(), view.model().summary().c_str());
+  }
+  const StopPolitely stop;
+  view.run();
+}
+
+}  // namespace
+
+void add_view(CLI::App& app) {
+  const auto args = std::make_shared<ViewArguments>();
+  CLI::App* view = app.add_subcommand(
+      "view", "Shows a mesh in a browser, where points are dragged and lines are drawn.");
+  add_mesh_options(*view, *args);
+  view->add_option("--journal", args->journal.path,
+                   "Record each update in this file, and go on from it if it is there (default:\n"
+                   "INPUT.journal)")
+      ->type_name("FILE");
+  add_journal_options(*view, args->journal);
+  view->add_option("--port", args->port, "Where to listen on 127.0.0.1 (default: any free port)")
+      ->type_name("PORT");
+  view->footer(
+      "Prints the address of the page, which holds a random token; no browser is started. The "
+      "page\n"
+      "is only for this machine, and for who knows the address. Options are those of 'mesher "
+      "edit'\n"
+      "except -o, --static and --stats; the page saves files. Its script of edits, replayed by\n"
+      "'mesher edit', gives the same mesh. See mesher/docs/view.md.\n"
+      "Examples:\n"
+      "  mesher view lake.poly\n"
+      "  mesher view part.stl --surface --journal part.edits --port 8080");
+  view->callback([args] { run_view(*args); });
+}
+
+}  // namespace tool

@@ -1,0 +1,481 @@
+// mesher view in headless Chromium: what people do with it, and how fast it follows.
+//
+//   node browser_test.mjs TOOL DATA SCRATCH [PICTURES]
+//
+// Needs the npm package playwright-core (NODE_PATH or beside), and Chromium (CHROMIUM, or in PATH).
+// PICTURES: a folder for screenshots. FIGURES=1: measures drags of meshes up to 10^6 triangles, too.
+
+import assert from 'node:assert/strict';
+import {execFileSync, spawn} from 'node:child_process';
+import fs from 'node:fs';
+import {createRequire} from 'node:module';
+import path from 'node:path';
+
+const [tool, data, scratch, pictures] = process.argv.slice(2).map((p) => path.resolve(p));
+const folder = path.join(scratch, 'browser_test');
+fs.rmSync(folder, {recursive: true, force: true});
+fs.mkdirSync(folder, {recursive: true});
+process.chdir(folder);
+
+const require = createRequire(import.meta.url);
+const {chromium} = require(process.env.PLAYWRIGHT || 'playwright-core');
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
+  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+    '--ignore-gpu-blocklist'],
+});
+
+// --- Servers and pages -----------------------------------------------------------------------
+
+const servers = [];
+async function serve(...args) {
+  const child = spawn(tool, ['view', ...args], {stdio: ['ignore', 'pipe', 'pipe']});
+  servers.push(child);
+  let said = '';
+  child.stderr.on('data', (text) => { said += text; });
+  const address = await new Promise((done, failed) => {
+    child.stdout.once('data', (text) => done(String(text).trim()));
+    child.once('exit', () => failed(new Error(said)));
+  });
+  return {child, address, port: new URL(address).port, said: () => said,
+    end: (signal = 'SIGINT') => new Promise((done) => {
+      child.once('exit', done);
+      child.kill(signal);
+    })};
+}
+
+const until = async (what, holds, seconds = 30) => {
+  for (const end = Date.now() + seconds * 1000; Date.now() < end;) {
+    if (await holds()) return;
+    await new Promise((done) => setTimeout(done, 40));
+  }
+  assert.fail('this did not happen: ' + what);
+};
+
+const faults = [];
+async function open(server, size = {width: 1280, height: 800}) {
+  const page = await browser.newPage({viewport: size});
+  page.on('pageerror', (error) => faults.push(error.stack));
+  page.on('console', (message) => {
+    if (message.type() === 'error' && !/WebSocket/.test(message.text())) faults.push(message.text());
+  });
+  await page.goto(server.address);
+  await quiet(page);
+  return page;
+}
+const quiet = (page) => until('the page is quiet', () => page.evaluate(() =>
+  Boolean(window.mesher && window.mesher.mesh && !window.mesher.busy)), 120);
+const state = (page) => page.evaluate(() => window.mesher.state);
+const point = (page, id) => page.evaluate((n) => window.mesher.mesh.points.get(n), id);
+// Where a place of the mesh is in the window.
+const at = (page, place) => page.evaluate((p) => {
+  const box = document.getElementById('scene').getBoundingClientRect();
+  const [x, y] = window.mesher.view.on_page(p);
+  return [x + box.left, y + box.top];
+}, place);
+const click = async (page, place, times = 1) => {
+  const [x, y] = await at(page, place);
+  await page.mouse.click(x, y, {clickCount: times});
+};
+const tool_of = (page, name) => page.click('#tool_' + name);
+async function pull(page, from, to, steps = 8) {
+  const [x0, y0] = await at(page, from), [x1, y1] = await at(page, to);
+  await page.mouse.move(x0, y0);
+  await page.mouse.down();
+  for (let i = 1; i <= steps; ++i) {
+    await page.mouse.move(x0 + (x1 - x0) * i / steps, y0 + (y1 - y0) * i / steps);
+    await page.waitForTimeout(15);
+  }
+  await page.mouse.up();
+  await quiet(page);
+}
+const shot = async (page, name) => {
+  if (!pictures) return;
+  fs.mkdirSync(pictures, {recursive: true});
+  await page.screenshot({path: path.join(pictures, name + '.png')});
+};
+async function saved(page, selector) {
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click(selector)]);
+  return fs.readFileSync(await download.path());
+}
+// The colour of the picture at a place, of the next frame.
+const pixel = (page, place) => page.evaluate((p) => new Promise((done) => {
+  requestAnimationFrame(() => {
+    const {view} = window.mesher, gl = view.gl;
+    view.frame(performance.now());
+    const [x, y] = view.on_page(p), out = new Uint8Array(4);
+    gl.readPixels(x * view.ratio, view.height - y * view.ratio, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, out);
+    done(Array.from(out));
+  });
+}), place);
+
+const tests = {};
+
+// --- Tests -----------------------------------------------------------------------------------
+
+const SQUARE = '4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 1\n1 1 2 1\n2 2 3 2\n3 3 4 3\n4 4 1 4\n0\n';
+
+tests['drag, draw, undo, errors and saving'] = async () => {
+  fs.writeFileSync('square.poly', SQUARE);
+  const server = await serve('square.poly');
+  const page = await open(server);
+  assert.equal((await state(page)).updates, 0);
+
+  await tool_of(page, 'point');
+  await click(page, [0.3, 0.4]);
+  await quiet(page);
+  const made = await point(page, 5);
+  assert.ok(Math.hypot(made[0] - 0.3, made[1] - 0.4) < 0.01, String(made));
+
+  await tool_of(page, 'move');
+  const before = await state(page);
+  await pull(page, made, [0.6, 0.55]);
+  const moved = await point(page, 5);
+  assert.ok(Math.hypot(moved[0] - 0.6, moved[1] - 0.55) < 0.01, String(moved));
+  assert.equal((await state(page)).updates, before.updates + 1);
+  assert.ok((await state(page)).revision > before.revision + 1, 'it followed on the way');
+
+  await tool_of(page, 'segment');
+  await click(page, [0.2, 0.2]);
+  await click(page, [0.4, 0.25]);
+  await quiet(page);
+  await tool_of(page, 'polyline');
+  for (const p of [[0.2, 0.7], [0.3, 0.8], [0.4, 0.7]]) await click(page, p);
+  await page.keyboard.press('Enter');
+  await quiet(page);
+  await tool_of(page, 'polygon');
+  for (const p of [[0.6, 0.7], [0.85, 0.72], [0.8, 0.9]]) await click(page, p);
+  await page.keyboard.press('Enter');
+  await quiet(page);
+  await tool_of(page, 'region');
+  await page.fill('#attribute', '3');
+  await click(page, [0.75, 0.77]);
+  await quiet(page);
+  assert.deepEqual(await page.evaluate(() => window.mesher.seeds.map((s) => [s.kind, s.attribute])),
+    [['region', 3]]);
+  const kept = (await state(page)).kept;
+  assert.equal((await state(page)).updates, 6);
+
+  // A hole: what it encloses is no longer kept, and no longer painted.
+  await page.keyboard.press('Control+z');
+  await until('undo', async () => (await state(page)).updates === 7);
+  await tool_of(page, 'hole');
+  await click(page, [0.75, 0.77]);
+  await quiet(page);
+  assert.ok((await state(page)).kept < kept);
+  await page.waitForTimeout(1500);
+  const [r, g, b] = await pixel(page, [0.76, 0.8]);
+  assert.ok(Math.abs(r - 247) < 3 && Math.abs(g - 247) < 3 && Math.abs(b - 243) < 4, `${r} ${g} ${b}`);
+
+  // What crosses is refused where it crosses; what was drawn is not lost.
+  await tool_of(page, 'segment');
+  await click(page, [0.3, 0.1]);
+  await click(page, [0.3, 0.3]);
+  await quiet(page);
+  const problem = await page.evaluate(() => window.mesher.problems[0]);
+  assert.match(problem.text, /cross/);
+  assert.ok(Math.hypot(problem.places[0][0] - 0.3, problem.places[0][1] - 0.225) < 0.02);
+  assert.equal((await page.evaluate(() => window.mesher.draft)).length, 2);
+  await shot(page, 'square_error');
+  await page.keyboard.press('Escape');
+
+  // Undo until nothing is left gives the first mesh again; redo gives the last.
+  const last = await state(page);
+  while ((await state(page)).undo > 0) {
+    const {undo} = await state(page);
+    await page.click('#undo');
+    await until('undo', async () => (await state(page)).undo < undo);
+  }
+  assert.equal(await page.evaluate(() => window.mesher.mesh.points.size), 4);
+  while ((await state(page)).redo > 0) {
+    const {redo} = await state(page);
+    await page.click('#redo');
+    await until('redo', async () => (await state(page)).redo < redo);
+  }
+  assert.equal((await state(page)).simplices, last.simplices);
+  await quiet(page);
+
+  // Snapped to a grid, of a power of ten.
+  await tool_of(page, 'point');
+  await page.click('#snap');
+  await click(page, [0.504, 0.117]);
+  await quiet(page);
+  const snapped = await page.evaluate(() =>
+    window.mesher.mesh.points.get(Math.max(...window.mesher.mesh.points.keys())));
+  assert.deepEqual(snapped, [0.5, 0.12]);
+  await page.click('#snap');
+
+  // Delete: of a point with its lines.
+  await tool_of(page, 'delete');
+  const corner = await page.evaluate(() => Array.from(window.mesher.mesh.points).find(([, p]) =>
+    Math.hypot(p[0] - 0.3, p[1] - 0.8) < 0.02)[1]);
+  await click(page, corner);
+  await quiet(page);
+  assert.equal(await page.evaluate(() => window.mesher.mesh.edge_lines.includes(6)), false);
+
+  // What is saved is what `mesher edit` makes of the script.
+  const script = await saved(page, '#save_script');
+  fs.writeFileSync('edits.txt', script);
+  for (const format of ['vtu', 'msh', 'obj']) {
+    await page.selectOption('#format', format);
+    execFileSync(tool, ['edit', 'square.poly', '--script', 'edits.txt', '-o', 'own.' + format,
+      '--quiet']);
+    assert.deepEqual(await saved(page, '#save'), fs.readFileSync('own.' + format), format);
+  }
+  await page.click('#fresh');
+  await until('a fresh run', () => page.evaluate(() =>
+    document.getElementById('fresh_result').textContent.includes('the same mesh')));
+
+  // A page that is loaded again shows the same.
+  const counts = await state(page);
+  await page.reload();
+  await quiet(page);
+  assert.deepEqual(await state(page), counts);
+  await page.close();
+  assert.equal(await server.end(), 0);
+};
+
+tests['the calls of an update'] = async () => {
+  fs.writeFileSync('calls.poly', SQUARE);
+  const server = await serve('calls.poly');
+  const page = await open(server);
+  await page.click('#calls');
+  await quiet(page);
+  await tool_of(page, 'segment');
+  await click(page, [0.3, 0.4]);
+  await click(page, [0.6, 0.5]);
+  await until('the picture', () => page.evaluate(() =>
+    document.getElementById('calls_picture').naturalWidth > 100));
+  await page.evaluate(() => document.getElementById('calls_picture').scrollIntoView());
+  await shot(page, 'calls');
+  await page.close();
+  await server.end();
+};
+
+tests['two tabs, and a server that is killed'] = async () => {
+  fs.writeFileSync('tabs.poly', SQUARE);
+  let server = await serve('tabs.poly');
+  const one = await open(server), two = await open(server);
+  await tool_of(one, 'polyline');
+  for (const p of [[0.2, 0.3], [0.5, 0.6], [0.8, 0.3]]) await click(one, p);
+  await one.keyboard.press('Enter');
+  await quiet(one);
+  await until('the other tab sees it', async () => (await state(two)).updates === 1);
+  const middle = await two.evaluate(() => Array.from(window.mesher.mesh.points.keys()).pop());
+  const from = await point(two, middle);
+  await pull(two, from, [from[0], from[1] + 0.1]);
+  await until('the first tab sees the drag', async () => (await state(one)).updates === 2);
+  await until('the same place', async () =>
+    JSON.stringify(await point(one, middle)) === JSON.stringify(await point(two, middle)));
+  const content = (page) => page.evaluate(() => {
+    const m = window.mesher.mesh, all = [];
+    for (let s = 0; s < m.slots; ++s) if (m.is_live(s)) all.push(m.outline(s).join() + m.labels[s]);
+    return all.sort().join(' ') + Array.from(m.bins).join();
+  });
+  const was = await content(one);
+  assert.equal(was, await content(two));
+
+  // It is killed, and comes back on its port from the journal: pages find it only if the token is
+  // known, so they are opened anew.
+  await server.end('SIGKILL');
+  await until('the page says so', () => one.evaluate(() => !document.getElementById('lost').hidden));
+  server = await serve('tabs.poly');
+  assert.match(server.said(), /2 updates resumed/);
+  const three = await open(server);
+  assert.equal(await content(three), was);
+  await three.click('#undo');
+  await until('undo after a kill', async () => (await state(three)).updates === 3);
+  assert.deepEqual(await point(three, middle), from);
+  for (const page of [one, two, three]) await page.close();
+  await server.end();
+};
+
+tests['a page of another site is refused'] = async () => {
+  fs.writeFileSync('origin.poly', SQUARE);
+  const server = await serve('origin.poly');
+  const other = await serve('origin.poly', '--journal', 'other.journal');
+  const page = await open(other);  // of another origin, which may not speak to the first
+  const outcome = await page.evaluate((address) => new Promise((done) => {
+    const socket = new WebSocket(address.replace('http', 'ws') + 'socket');
+    socket.onopen = () => done('open');
+    socket.onerror = () => done('refused');
+  }), server.address);
+  assert.equal(outcome, 'refused');
+  const answer = await page.evaluate((address) =>
+    fetch(address).then(() => 'read', () => 'refused'), server.address);
+  assert.equal(answer, 'refused');
+  faults.length = 0;  // the browser reports both
+  await page.close();
+  await server.end();
+  await other.end();
+};
+
+tests['the Great Lakes: a wall that is pulled'] = async () => {
+  fs.copyFileSync(path.join(data, 'great_lakes.poly'), 'great_lakes.poly');
+  const server = await serve('great_lakes.poly');
+  const page = await open(server);
+  await page.waitForTimeout(800);
+  await shot(page, 'great_lakes');
+  await page.evaluate(() => window.mesher.go_to([-87.0, 43.4], 1.2));
+  await quiet(page);
+  await page.waitForTimeout(800);
+  await tool_of(page, 'polyline');
+  for (const p of [[-87.2, 43.2], [-87.0, 43.5], [-86.8, 43.4]]) await click(page, p);
+  await page.keyboard.press('Enter');
+  await quiet(page);
+  await tool_of(page, 'move');
+  const middle = await page.evaluate(() => Math.max(...window.mesher.mesh.points.keys()) - 1);
+  const from = await point(page, middle);
+  await page.click('input[value=quality]');
+  await pull(page, from, [from[0] + 0.15, from[1] + 0.2], 12);
+  await page.click('input[value=region]');
+  await page.click('#undo');
+  await until('undo', async () => (await state(page)).updates === 3);
+  await page.click('#redo');
+  await until('redo', async () => (await state(page)).updates === 4);
+  await shot(page, 'wall');
+  // What is kept as a picture is what is drawn anew.
+  await page.waitForTimeout(1600);
+  const differs = await page.evaluate(() => {
+    const {view} = window.mesher, gl = view.gl, n = view.width * view.height * 4;
+    const read = () => {
+      gl.bindFramebuffer(gl.FRAMEBUFFER, view.frames[view.shown]);
+      const out = new Uint8Array(n);
+      gl.readPixels(0, 0, view.width, view.height, gl.RGBA, gl.UNSIGNED_BYTE, out);
+      gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+      return out;
+    };
+    const kept = read();
+    view.draw(0, 0, view.width, view.height);
+    const drawn = read();
+    let count = 0;
+    for (let i = 0; i < n; ++i) if (Math.abs(kept[i] - drawn[i]) > 2) ++count;
+    return count;
+  });
+  assert.equal(differs, 0, 'the kept picture is out of date');
+  await page.close();
+  await server.end();
+};
+
+tests['in space: a corner moved along an axis'] = async () => {
+  execFileSync(tool, ['gen', 'pump', '-o', 'pump.poly']);
+  execFileSync(tool, ['gen', 'cube', '-o', 'cube.poly']);
+  const pump = await serve('pump.poly');
+  let page = await open(pump);
+  await page.click('input[value=quality]');
+  await page.waitForTimeout(600);
+  await shot(page, 'pump');
+  const faces = await page.evaluate(() => window.mesher.view.buffers.faces.count);
+  await page.fill('#cut_at', '300');
+  await quiet(page);
+  assert.notEqual(await page.evaluate(() => window.mesher.view.buffers.faces.count), faces);
+  await page.click('#cut');
+  await page.click('#slivers');
+  await page.click('#only_marked');
+  await quiet(page);
+  assert.ok(await page.evaluate(() => window.mesher.view.buffers.faces.count) > 0);
+  await page.waitForTimeout(300);
+  await shot(page, 'slivers');
+  await page.close();
+  await pump.end();
+
+  const server = await serve('cube.poly', '--domain', '-1', '-1', '-1', '2', '2', '2');
+  page = await open(server);
+  await page.click('#cut');
+  await tool_of(page, 'point');
+  const spot = await page.evaluate(() => {
+    const v = window.mesher.view;
+    for (let y = 300; y < 600; y += 7) {
+      for (let x = 300; x < 600; x += 7) {
+        const face = v.pick_face(x, y);
+        if (face) return v.on_page(face.place).map((c, i) => Math.abs(c - [x, y][i]) < 0.5);
+      }
+    }
+    return null;
+  });
+  assert.deepEqual(spot, [true, true], 'what is picked is where the pointer is');
+  await tool_of(page, 'move');
+  // A point inside, in view of no face, is moved along z.
+  await page.evaluate(() => window.mesher.command({do: 'point', at: [0.5, 0.5, 0.5]}));
+  await quiet(page);
+  const id = await page.evaluate(() => Math.max(...window.mesher.mesh.points.keys()));
+  await page.keyboard.press('z');
+  const from = await at(page, await point(page, id));
+  await page.mouse.move(...from);
+  await page.mouse.down();
+  for (let i = 1; i <= 6; ++i) await page.mouse.move(from[0] + 2 * i, from[1] - 6 * i);
+  await page.mouse.up();
+  await quiet(page);
+  const moved = await point(page, id);
+  assert.ok(moved[2] > 0.52 && moved[0] === 0.5 && moved[1] === 0.5, String(moved));
+  await page.keyboard.press('Control+z');
+  await until('undo', async () => (await point(page, id))[2] === 0.5);
+  await page.mouse.move(500, 400);
+  await page.mouse.down();
+  await page.mouse.move(560, 380);
+  await page.mouse.up();
+  assert.notEqual(await page.evaluate(() => window.mesher.view.camera.yaw), -0.5);
+  await page.close();
+  await server.end();
+};
+
+// Updates and frames a second while a point is dragged, at three zooms, from the page itself.
+async function figures(points, name) {
+  execFileSync(tool, ['gen', 'uniform', '--n', String(points), '--seed', '7', '-o', name]);
+  const server = await serve(name);
+  const page = await open(server);
+  const lines = [];
+  await until('the picture is drawn', () => page.evaluate(() => !window.mesher.busy), 120);
+  for (const zoom of [1, 8, 64]) {
+    await page.evaluate((by) => {
+      const {view} = window.mesher;
+      view.show_all();
+      view.zoom(by, view.width / 2 / view.ratio, view.height / 2 / view.ratio);
+      window.dispatchEvent(new Event('resize'));
+    }, zoom);
+    await page.waitForTimeout(300);
+    await quiet(page);
+    if (zoom === 1) await shot(page, `uniform_${points}`);
+    const got = await page.evaluate(() => window.mesher.measure(3));
+    await quiet(page);
+    const figure = (x) => x.toFixed(x < 10 ? 1 : 0);
+    lines.push({zoom, updates: got.updates, text:
+      `${got.triangles} triangles, zoom ${zoom}: ${figure(got.updates)} updates/s, ` +
+      `${figure(got.frames)} frames/s; engine ${got.engine_ms.toFixed(2)} ms, round trip ` +
+      `${got.trip_ms.toFixed(1)} ms, change ${got.apply_ms.toFixed(2)} ms, paint ` +
+      `${got.paint_ms.toFixed(1)} ms`});
+    console.log('  ' + lines[lines.length - 1].text);
+  }
+  await page.close();
+  await server.end();
+  return lines;
+}
+
+tests['a mesh of 10^4 triangles follows a drag'] = async () => {
+  for (const {updates, zoom} of await figures(3200, 'uniform_4.node')) {
+    assert.ok(updates > 10, `${updates} updates a second at zoom ${zoom}`);
+  }
+};
+if (process.env.FIGURES) {
+  tests['figures: 10^5 and 10^6 triangles'] = async () => {
+    await figures(31500, 'uniform_5.node');
+    await figures(315000, 'uniform_6.node');
+  };
+}
+
+let failed = 0;
+for (const [name, test] of Object.entries(tests)) {
+  if (process.env.ONLY && !name.includes(process.env.ONLY)) continue;
+  try {
+    await test();
+    assert.deepEqual(faults, [], 'the page reported errors');
+    console.log('ok      ' + name);
+  } catch (error) {
+    failed += 1;
+    faults.length = 0;
+    console.log('FAILED  ' + name + '\n' + error.stack);
+  }
+}
+await browser.close();
+for (const child of servers) if (child.exitCode === null) child.kill('SIGKILL');
+process.exit(failed === 0 ? 0 : 1);

@@ -1,0 +1,509 @@
+#!/usr/bin/env python3
+"""The server of `mesher view` without a browser: who is let in, what is refused, what pages see,
+what survives a kill.
+
+    view_test.py TOOL DATA SCRATCH [SEED]
+"""
+
+import json
+import os
+import random
+import shutil
+import socket
+import struct
+import subprocess
+import sys
+import time
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from client import Client, Mirror, Refused, Server  # noqa: E402
+
+
+def contents(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def write(path, content):
+    with open(path, "wb") as file:
+        file.write(content)
+
+
+def edit(*arguments):
+    done = subprocess.run([TOOL, "edit", *arguments, "--quiet"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
+def require_replayed(server, source, *options, formats=("vtu", "msh")):
+    """The script, replayed by `mesher edit`, gives the bytes that the page saves."""
+    status, script, _ = server.get("save/edits.txt")
+    assert status == 200
+    write("replayed.txt", script)
+    for extension in formats:
+        edit(source, *options, "--script", "replayed.txt", "-o", f"replayed.{extension}")
+        status, saved, _ = server.get(f"save/mesh.{extension}")
+        assert status == 200, saved
+        assert saved == contents(f"replayed.{extension}"), f".{extension} differs"
+    return script
+
+
+def same_as_snapshot(client, mirror):
+    now = client.ask(do="snapshot")
+    assert Mirror(now).content() == mirror.content()
+    return now
+
+
+def refuses_strangers():
+    with Server(TOOL, "square.poly", "--journal", "strangers.journal") as server:
+        own = f"127.0.0.1:{server.port}"
+        status, body, headers = server.get("")
+        assert status == 200 and b"<canvas" in body
+        assert headers["Cache-Control"] == "no-store"
+        assert "default-src 'self'" in headers["Content-Security-Policy"]
+        for page in ("app.js", "plane.js", "space.js", "mesh.js", "tiles.js", "gl.js", "wire.js",
+                     "style.css"):
+            assert server.get(page)[0] == 200, page
+        assert server.get("", headers={"Host": f"localhost:{server.port}"})[0] == 200
+        assert server.get("no_such")[0] == 404
+        assert server.get("../page.html")[0] == 404
+        assert server.get("save/../../etc/passwd")[0] == 409
+        assert server.get("save/mesh.exe")[0] == 409
+        assert server.get("", method="POST")[0] == 405
+        assert server.get("", method="DELETE")[0] == 405
+        status, body, headers = server.get("app.js", method="HEAD")
+        assert status == 200 and body == b"" and int(headers["Content-Length"]) > 1000
+        # A wrong token, none, a part of it, more than it.
+        wrong = ("0" if server.token[0] != "0" else "1") + server.token[1:]
+        for path in ("/", "/app.js", f"/{wrong}/", f"/{server.token[:-1]}/", f"/{server.token}0/",
+                     f"/{server.token}", f"//{server.token}/", "/socket", f"/{wrong}/socket"):
+            status, body, _ = server.get(path, whole=True)
+            assert status == 403 and body == b"refused\n", path
+        # Another Host, as of a name that was pointed at this machine; another Origin.
+        for host in ("example.org", f"example.org:{server.port}", "127.0.0.1", "127.0.0.1:1",
+                     f"127.0.0.1:{server.port}.example.org", f"127.0.0.2:{server.port}", ""):
+            assert server.get("", headers={"Host": host})[0] == 403, host
+        for origin in ("http://example.org", f"https://{own}", "null", f"http://{own}.example.org",
+                       f"http://127.0.0.1:{server.port + 1}", "", own):
+            assert server.get("", headers={"Origin": origin})[0] == 403, origin
+            try:
+                Client(server, origin=origin)
+                raise AssertionError(f"a web socket of {origin!r} was let in")
+            except Refused as refused:
+                assert str(refused) == "403", origin
+        for case in ({"origin": None}, {"host": "example.org"}, {"path": f"/{wrong}/socket"},
+                     {"path": "/socket"}):
+            try:
+                Client(server, **case)
+                raise AssertionError(f"a web socket was let in: {case}")
+            except Refused as refused:
+                assert str(refused) == "403", case
+        try:
+            Client(server, path=server.path + "other")
+            raise AssertionError("there is another web socket")
+        except Refused as refused:
+            assert str(refused) == "404"
+        # It listens on the loopback address alone.
+        addresses = {info[4][0] for info in socket.getaddrinfo(socket.gethostname(), None,
+                                                               socket.AF_INET)}
+        for address in addresses - {"127.0.0.1"}:
+            with socket.socket() as other:
+                other.settimeout(5)
+                reached = other.connect_ex((address, server.port)) == 0
+                assert not reached or address.startswith("127."), address
+        Client(server).close()
+    code, said = server.stop()
+    assert code == 0, (code, said)
+
+
+def shows_edits_to_all():
+    with Server(TOOL, "square.poly", "--journal", "all.journal") as server:
+        one, two = Client(server), Client(server)
+        mirrors = [Mirror(one.snapshot), Mirror(two.snapshot)]
+        commands = [{"do": "point", "at": [0.3, 0.4]},
+                    {"do": "line", "through": [[0.2, 0.2], [0.8, 0.25]], "marker": 7},
+                    {"do": "line", "through": [[0.4, 0.5], [0.7, 0.5], [0.6, 0.7]], "closed": True},
+                    {"do": "region", "at": [0.57, 0.56], "attribute": 2.5, "largest": 0.001},
+                    {"do": "hole", "at": [0.1, 0.9]},
+                    {"do": "delete", "features": [["point", 5]]},
+                    {"do": "undo"}, {"do": "undo"}, {"do": "redo"},
+                    {"do": "script", "text": "begin\n+point 90 .9 .8\n+point 91 .8 .9\n"
+                     "+segment 92 90 91\ncommit\n+point 93 .15 .15\n"}]
+        for command in commands:
+            tag = one.send(**command)
+            expected = 2 if command["do"] == "script" else 1
+            for client, mirror in ((one, mirrors[0]), (two, mirrors[1])):
+                for _ in range(expected):
+                    change = client.receive()
+                    assert change["kind"] == "change", change
+                    assert change["tag"] == tag
+                    mirror.apply(change)
+                    assert len(mirror.simplices) == change["state"]["simplices"]
+                    kept = sum(label != 0 for _, label in mirror.simplices.values())
+                    assert kept == change["state"]["kept"]
+        assert mirrors[0].content() == mirrors[1].content()
+        same_as_snapshot(two, mirrors[0])
+        # A drag is one update, whatever it did on the way; all see it on the way.
+        before = one.ask(do="snapshot")["state"]
+        for x in (0.31, 0.33, 0.36):
+            change = one.ask(do="drag", point=5, at=[x, 0.41])
+            assert change["kind"] == "change" and change["state"]["updates"] == before["updates"]
+            mirrors[0].apply(change)
+        one.send(do="drag", point=5, at=[0.38, 0.42], drop=True)
+        last = [one.receive() for _ in range(3)]
+        assert [m["kind"] for m in last] == ["change", "state", "dropped"]
+        mirrors[0].apply(last[0])
+        assert last[2]["state"]["updates"] == before["updates"] + 1
+        assert last[2]["state"]["undo"] == before["undo"] + 1
+        same_as_snapshot(one, mirrors[0])
+        assert mirrors[0].points[5] == (0.38, 0.42)
+        # Somebody else's edit, or an end of the connection, drops it.
+        one.ask(do="drag", point=5, at=[0.39, 0.43])
+        state = two.ask(do="undo")["state"]
+        assert state["updates"] == before["updates"] + 3, "the drag, and its undo"
+        assert Mirror(two.ask(do="snapshot")).points[5] == (0.38, 0.42)
+        three = Client(server)
+        three.ask(do="drag", point=5, at=[0.4, 0.44])
+        three.close()
+        time.sleep(0.3)
+        assert two.ask(do="snapshot")["state"]["updates"] == before["updates"] + 4
+        script = require_replayed(server, "square.poly", formats=("vtu", "msh", "off", "obj"))
+        assert script.count(b"move 5") == 4 and b"move 5 0.38 0.42" in script
+        archive = server.get("save/mesh.node")[1]
+        write("saved.tar", archive)
+        os.makedirs("untarred", exist_ok=True)
+        subprocess.run(["tar", "-xf", "saved.tar", "-C", "untarred"], check=True)
+        os.makedirs("own", exist_ok=True)
+        edit("square.poly", "--script", "replayed.txt", "-o", "own/square.node")
+        for part in ("node", "ele", "edge", "poly", "neigh"):
+            assert contents(f"untarred/square.{part}") == contents(f"own/square.{part}"), part
+        for extension in ("vtk", "inp", "su2", "mesh", "svg"):
+            status, body, headers = server.get(f"save/mesh.{extension}")
+            assert status == 200 and len(body) > 100, extension
+            assert headers["Content-Disposition"] == f'attachment; filename="square.{extension}"'
+        fresh = one.ask(do="fresh")
+        assert fresh["kind"] == "fresh" and fresh["same"] is True, fresh
+
+
+def refuses_nonsense(seed):
+    """Commands that are none, that are wrong, or noise: nothing changes, and the server lives."""
+    rng = random.Random(seed)
+    with Server(TOOL, "square.poly", "--domain", "-1", "-1", "2", "2", "--journal",
+                "nonsense.journal") as server:
+        client = Client(server)
+        watcher = Client(server)
+        before = Mirror(client.snapshot).content()
+        wrong = [{}, {"do": 3}, {"do": "paint"}, {"do": "point"}, {"do": "point", "at": 5},
+                 {"do": "point", "at": [1]}, {"do": "point", "at": [1, 2, 3]},
+                 {"do": "point", "at": ["a", 1]}, {"do": "point", "at": [1e300, 0]},
+                 {"do": "point", "at": [1e-40, 0]}, {"do": "point", "at": [50, 50]},
+                 {"do": "point", "at": [0, 0]}, {"do": "point", "at": [0.5, 0.5], "marker": 1.5},
+                 {"do": "line", "through": []}, {"do": "line", "through": [1]},
+                 {"do": "line", "through": "all"}, {"do": "line", "through": [1, 77]},
+                 {"do": "line", "through": [1, 2]}, {"do": "line", "through": [1, 3], "closed": 1},
+                 {"do": "line", "through": [[0.5, -0.1], [0.5, 0.5]]},
+                 {"do": "line", "through": [1, 2 ** 60]}, {"do": "line", "through": [1, -2 ** 63]},
+                 {"do": "line", "through": [1, 2 ** 64]}, {"do": "line", "through": [1, 1.5]},
+                 {"do": "line", "through": [None, 2]}, {"do": "line", "through": [[0.2], 2]},
+                 {"do": "delete"}, {"do": "delete", "features": []},
+                 {"do": "delete", "features": [["point", 99]]},
+                 {"do": "delete", "features": [["planet", 1]]}, {"do": "delete", "features": [5]},
+                 {"do": "region", "at": [0.5, 0.5]}, {"do": "hole"},
+                 {"do": "region", "at": [0.5, 0.5], "attribute": "x"},
+                 {"do": "drag", "point": 99, "at": [0, 0]}, {"do": "drag", "point": 1},
+                 {"do": "drag", "point": 1, "at": [90, 0]}, {"do": "undo"}, {"do": "redo"},
+                 {"do": "script"}, {"do": "script", "text": ""}, {"do": "script", "text": "hello"},
+                 {"do": "script", "text": "limit area 0.001"},
+                 {"do": "script", "text": "limit sizes /etc/passwd"},
+                 {"do": "script", "text": "begin\n+point 60 .5 .5\n"},
+                 {"do": "script", "text": "begin\n+point 60 .5 .5\n+point 60 .6 .5\ncommit\n"},
+                 {"do": "script", "text": "+point 9007199254740993 .5 .5\n"}]
+        for command in wrong:
+            answer = client.ask(**command)
+            assert answer["kind"] == "error" and answer["text"], (command, answer)
+        crossing = client.ask(do="line", through=[[0.5, 0.5], [0.5, 0.5]])
+        assert crossing["kind"] == "error"
+        crossing = client.ask(do="line", through=[[0.5, -0.1], [0.5, 0.5]])
+        assert crossing["code"] == "crossing_segments" and crossing["places"][0][:2] == [0.5, 0], \
+            crossing
+        # Text that is no JSON, bytes, deep nests, what is not UTF-8 (which closes).
+        texts = [b"", b"{", b"[1,2", b"null", b"[]", b"42", b'"do"', b"[" * 100000, b'{"a":' * 50000,
+                 b'{"do":"point","at":[NaN,1]}', b'{"do":"point","at":[1e999,0]}',
+                 b'{"do":"undo"}' * 2, b"\x00\x01\x02", json.dumps({"do": "x" * 100000}).encode()]
+        for text in texts:
+            client.send_frame(text)
+            assert client.receive()["kind"] == "error", text[:40]
+        client.send_frame(b'{"do":"undo"}', opcode=2)
+        assert client.receive()["kind"] == "error"
+        # Mutations of good commands that edit nothing: a drag to where the point is.
+        good = json.dumps({"do": "drag", "point": 1, "at": [0.0, 0.0]}).encode()
+        for _ in range(400):
+            mutant = bytearray(good)
+            for _ in range(rng.randrange(1, 4)):
+                kind, at = rng.randrange(3), rng.randrange(len(mutant))
+                if kind == 0:
+                    mutant[at] = rng.randrange(32, 127)
+                elif kind == 1:
+                    del mutant[at]
+                else:
+                    mutant[at:at] = mutant[rng.randrange(len(mutant)):][:rng.randrange(6)]
+            try:
+                command = json.loads(mutant)
+                moves = (isinstance(command, dict) and command.get("do") == "drag" and
+                         command.get("at") != [0.0, 0.0])
+            except ValueError:
+                moves = False
+            if not moves:
+                client.send_frame(bytes(mutant))
+        client.ask(do="snapshot")
+        # Frames that are none.
+        for _ in range(60):
+            stranger = Client(server)
+            kind = rng.randrange(5)
+            if kind == 0:
+                stranger.socket.sendall(rng.randbytes(rng.randrange(1, 200)))
+            elif kind == 1:
+                stranger.send_frame(b'{"do":"point","at":[0.5,0.5]}', masked=False)
+            elif kind == 2:
+                stranger.send_frame(b"\xff\xfe\xfd")
+            elif kind == 3:
+                stranger.socket.sendall(b"\x81\xff" + struct.pack(">Q", 1 << 62))
+            else:
+                stranger.send_frame(b"x" * rng.randrange(1000), opcode=rng.choice([3, 5, 11]))
+            stranger.close()
+        big = Client(server)
+        try:
+            big.send_frame(b" " * (2 << 20))
+            big.receive()
+            raise AssertionError("a message of 2 MB was read")
+        except (EOFError, OSError):
+            pass
+        # HTTP that is none.
+        for _ in range(60):
+            with socket.create_connection((server.host, server.port), timeout=10) as raw:
+                text = rng.choice([rng.randbytes(100), b"GET / HTTP/1.1\r\n" + b"A: b\r\n" * 5000,
+                                   b"GET " + server.path.encode() + b" HTTP/9.9\r\n\r\n",
+                                   b"POST " + server.path.encode() + b" HTTP/1.1\r\nHost: "
+                                   b"127.0.0.1\r\nContent-Length: 99999999\r\n\r\n"])
+                raw.sendall(text)
+        # More connections than there may be; those that are there go on.
+        many = [socket.create_connection((server.host, server.port), timeout=10)
+                for _ in range(100)]
+        for raw in many:
+            raw.close()
+        assert Mirror(client.ask(do="snapshot")).content() == before
+        assert contents("nonsense.journal").count(b"upd\n") == 1, "something was edited"
+        watcher.send(do="snapshot")
+        message = watcher.receive()
+        assert message["kind"] == "snapshot", "an edit was sent to all"
+        assert server.process.poll() is None
+
+
+def random_command(rng, mirror):
+    kind = rng.random()
+    ids = sorted(mirror.points)
+    place = [rng.uniform(0.02, 0.98), rng.uniform(0.02, 0.98)]
+    if kind < 0.35:
+        return {"do": "point", "at": place}
+    if kind < 0.45:
+        other = [min(0.98, max(0.02, x + rng.uniform(-0.1, 0.1))) for x in place]
+        return {"do": "line", "through": [place, other], "marker": rng.randrange(3)}
+    if kind < 0.6:
+        return {"do": "drag", "point": rng.choice(ids), "at": place, "drop": True}
+    if kind < 0.7:
+        return {"do": "delete", "features": [["point", rng.choice(ids)]]}
+    if kind < 0.8:
+        return {"do": "region", "at": place, "attribute": rng.randrange(4)}
+    return {"do": rng.choice(["undo", "undo", "redo"])}
+
+
+def survives_kills(seed):
+    """Random edits, with kills; at the end the script gives the bytes of a run without any."""
+    rng = random.Random(seed)
+    journal = "kills.journal"
+    if os.path.exists(journal):
+        os.remove(journal)
+    updates = 0
+    history = (0, 0)
+    content = None
+    for life in range(8):
+        server = Server(TOOL, "square.poly", "--journal", journal)
+        client = Client(server)
+        mirror = Mirror(client.snapshot)
+        state = client.snapshot["state"]
+        more = state["updates"] - updates  # of a command that was not answered: all of it, or nothing
+        assert more in ((0, 1) if life > 0 else (0,)), f"life {life}: {state['updates']}, {updates}"
+        if more == 0:
+            assert (state["undo"], state["redo"]) == history
+        if content is not None and more == 0:
+            for part in (0, 2):
+                assert mirror.content()[part] == content[part], f"life {life}: " + str(
+                    set(map(str, mirror.content()[part])) ^ set(map(str, content[part])))[:2000]
+        for _ in range(12):
+            command = random_command(rng, mirror)
+            tag = client.send(**command)
+            ends = {"dropped"} if command["do"] == "drag" else {"change", "error", "state"}
+            while True:
+                message = client.receive()
+                if message["kind"] == "change":
+                    mirror.apply(message)
+                if "state" in message:
+                    state = message["state"]
+                if message.get("tag") == tag and message["kind"] in ends:
+                    break
+                if message["kind"] == "error" and command["do"] == "drag" and \
+                        message["code"] == "unknown_id":
+                    break
+            if command["do"] == "drag" and message["kind"] == "dropped":
+                state = message["state"]
+        updates, history = state["updates"], (state["undo"], state["redo"])
+        content = mirror.content()
+        if life < 7:
+            client.send(do="point", at=[rng.uniform(0.02, 0.98), rng.uniform(0.02, 0.98)])
+            time.sleep(rng.random() * 0.004)
+            server.kill()
+    require_replayed(server, "square.poly")
+    code, said = server.stop()
+    assert code == 0 and "resumed" in said, said
+    edit("square.poly", "--journal", journal, "-o", "resumed.vtu")
+    assert contents("resumed.vtu") == contents("replayed.vtu")
+
+
+def tells_of_full_disks():
+    """An update that cannot be in the journal is taken back, and told so; later ones are made."""
+    with Server(TOOL, "square.poly", "--journal", "full.journal") as server:
+        length = len(contents("full.journal"))
+    os.remove("full.journal")
+    with Server(TOOL, "square.poly", "--journal", "full.journal", limit=length + 150) as server:
+        client = Client(server)
+        mirror = Mirror(client.snapshot)
+        first = client.ask(do="point", at=[0.3, 0.4])
+        assert first["kind"] == "change"
+        mirror.apply(first)
+        tag = client.send(do="line", through=[[0.1 + i / 50, 0.1 + i / 90] for i in range(20)])
+        snapshot = client.receive()
+        assert snapshot["kind"] == "snapshot" and Mirror(snapshot).content() == mirror.content()
+        error = client.receive()
+        assert error["tag"] == tag and error["code"] == "cannot_write", error
+        assert "update 2 is not in the journal, the 1 before it are" in error["text"]
+        mirror = Mirror(snapshot)
+        last = client.ask(do="point", at=[0.6, 0.4])
+        assert last["kind"] == "change" and last["state"]["updates"] == 2, last
+        mirror.apply(last)
+        # A drag goes back.
+        for _ in range(20):
+            moved = client.ask(do="drag", point=5, at=[0.3 + random.random() / 10, 0.45])
+            mirror.apply(moved)
+            client.send(do="drag", point=5, at=list(mirror.points[5]), drop=True)
+            messages = [client.receive()]
+            while messages[-1]["kind"] != "dropped":
+                messages.append(client.receive())
+            for message in messages:
+                if message["kind"] == "change":
+                    mirror.apply(message)
+            if any(m["kind"] == "error" for m in messages):
+                break
+        else:
+            raise AssertionError("the disk was never full")
+        same_as_snapshot(client, mirror)
+    edit("square.poly", "--journal", "full.journal", "-o", "full.vtu")
+
+
+def follows_in_space():
+    source = "cube.poly"
+    with Server(TOOL, source, "--journal", "space.journal") as server:
+        client = Client(server)
+        mirror = Mirror(client.snapshot)
+        assert len(client.snapshot["neighbours"]) == 4 * len(client.snapshot["labels"])
+        commands = [{"do": "point", "at": [0.5, 0.5, 0.5]},
+                    {"do": "line", "through": [9, [0.5, 0.25, 0.75]], "marker": 4},
+                    {"do": "drag", "point": 9, "at": [0.5, 0.5, 0.6], "drop": True},
+                    {"do": "polygon", "through": [[0.2, 0.2, 0.2], [0.4, 0.2, 0.2],
+                                                  [0.2, 0.4, 0.2]], "marker": 9},
+                    {"do": "region", "at": [0.7, 0.7, 0.3], "attribute": 3},
+                    {"do": "delete", "features": [["point", 11]]}, {"do": "undo"},
+                    {"do": "undo"}, {"do": "redo"}]
+        for command in commands:
+            tag = client.send(**command)
+            while True:
+                message = client.receive()
+                assert message["kind"] != "error", (command, message)
+                if message["kind"] == "change":
+                    mirror.apply(message)
+                if message.get("tag") == tag and message["kind"] == (
+                        "dropped" if command.get("drop") else "change"):
+                    break
+        same_as_snapshot(client, mirror)
+        require_replayed(server, source, formats=("vtu", "stl", "mesh"))
+        assert server.get("save/input.poly")[0] == 200
+        assert client.ask(do="fresh")["same"] is True
+
+
+def draws_calls():
+    """On request a picture of the calls that an update ran; of a drag one."""
+    with Server(TOOL, "square.poly", "--journal", "calls.journal") as server:
+        client = Client(server)
+        assert server.get("calls.svg")[0] == 404
+        assert client.ask(do="calls", on=True)["state"]["calls"] == 0
+        assert server.get("calls.svg")[0] == 404, "nothing has run yet"
+        change = client.ask(do="point", at=[0.3, 0.4])
+        drawn = client.receive()
+        assert drawn["kind"] == "state"
+        assert drawn["state"]["calls"] == change["state"]["revision"]
+        status, first, headers = server.get("calls.svg?1")
+        assert status == 200 and first.startswith(b"<svg") and b"point" in first
+        assert headers["Content-Security-Policy"].startswith("default-src 'none'")
+        for x in (0.31, 0.32):
+            assert client.ask(do="drag", point=5, at=[x, 0.4])["kind"] == "change"
+            assert server.get("calls.svg")[1] == first, "a drag on its way"
+        client.send(do="drag", point=5, at=[0.33, 0.4], drop=True)
+        while client.receive()["kind"] != "dropped":
+            pass
+        second = server.get("calls.svg")[1]
+        assert second.startswith(b"<svg") and second != first
+        assert client.ask(do="calls", on=False)["state"]["calls"] is None
+        assert server.get("calls.svg")[0] == 404
+        assert client.ask(do="calls", on=3)["kind"] == "error"
+
+
+def refuses_options():
+    def refuse(code, text, *arguments):
+        done = subprocess.run([TOOL, "view", *arguments], capture_output=True, text=True, timeout=60)
+        assert done.returncode == code and text in done.stderr, (arguments, done)
+    refuse(2, "--port", "square.poly", "--port", "70000")
+    refuse(2, "--port", "square.poly", "--port", "x")
+    refuse(2, "are for 'mesher edit'", "square.poly", "-o", "x.vtu")
+    refuse(2, "are for 'mesher edit'", "square.poly", "--static")
+    refuse(2, "cannot be read", "nowhere.poly")
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        refuse(2, "cannot listen", "square.poly", "--port", str(taken.getsockname()[1]))
+    with Server(TOOL, "square.poly", "--journal", "taken.journal"):
+        refuse(2, "in use by another process", "square.poly", "--journal", "taken.journal")
+    write("huge.node", b"2 2 0 0\n9007199254740993 0 0\n2 1 1\n")
+    refuse(2, "ids beyond 2^53", "huge.node")
+
+
+def main():
+    global TOOL
+    TOOL = os.path.abspath(sys.argv[1])
+    seed = int(sys.argv[4]) if len(sys.argv) > 4 else int(time.time())
+    print(f"seed {seed}", flush=True)
+    scratch = os.path.join(sys.argv[3], "view_test")
+    shutil.rmtree(scratch, ignore_errors=True)
+    os.makedirs(scratch)
+    os.chdir(scratch)
+    write("square.poly", b"4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 1\n1 1 2 1\n2 2 3 2\n3 3 4 3\n"
+          b"4 4 1 4\n0\n")
+    subprocess.run([TOOL, "gen", "cube", "-o", "cube.poly"], check=True)
+    for test in (refuses_strangers, shows_edits_to_all, tells_of_full_disks, follows_in_space,
+                 draws_calls, refuses_options):
+        test()
+    refuses_nonsense(seed)
+    survives_kills(seed)
+    print("ok")
+    os.chdir("..")
+    shutil.rmtree(scratch)
+
+
+main()
