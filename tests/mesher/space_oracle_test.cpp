@@ -164,6 +164,12 @@ Options<3> options(Rule rule = Rule::radius_edge, double rho = 2) {
   return {.domain = {{0, 0, 0}, {1.25, 1.25, 1.25}}, .rho = rho, .rule = rule};
 }
 
+Options<3> without_slivers(double min_dihedral) {
+  Options<3> with = options();
+  with.min_dihedral = min_dihedral;
+  return with;
+}
+
 }  // namespace
 
 TEST_CASE("in space, after every edit mesh and change are those of a run from scratch") {
@@ -174,6 +180,13 @@ TEST_CASE("in space, the same for other bounds and for the paper's rule") {
   for (const SpaceFamily family : support::kSpaceFamilies) {
     run(family, options(Rule::radius_edge, 1.7), 8, 3, 5);
     run(family, options(Rule::voronoi_aspect, 2), 8, 3, 7);
+  }
+}
+
+TEST_CASE("in space, the same with a bound of dihedral angles") {
+  for (const SpaceFamily family : support::kSpaceFamilies) {
+    run(family, without_slivers(10), 20, 12, 11);
+    run(family, without_slivers(18), 12, 6, 13);
   }
 }
 
@@ -206,6 +219,7 @@ TEST_CASE("soak: the same in space over many seeds", "[.soak][soak]") {
       run(family, options(), 5 + seed * 11 % 60, 100, seed);
       run(family, options(Rule::voronoi_aspect, 2), 5 + seed * 7 % 30, 30, seed);
       run(family, options(Rule::radius_edge, 1.6), 5 + seed * 5 % 30, 30, seed);
+      run(family, without_slivers(8 + static_cast<double>(seed % 10)), 5 + seed * 9 % 50, 50, seed);
     }
   }
 }

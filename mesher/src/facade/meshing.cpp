@@ -30,15 +30,6 @@ bool has_limits(const Options<D>& o) {
   return o.max_measure != 0 || o.sizes != nullptr || !o.box_limits.empty();
 }
 
-// Options that gap-balls does not know.
-template <int D>
-bool has_static_options(const Options<D>& o) {
-  if constexpr (D == 3) {
-    if (o.min_dihedral != 0) return true;
-  }
-  return o.growth != 0;
-}
-
 template <int D>
 bool limits_regions(const Graph<D>& graph, const Options<D>& o) {
   if (o.region_areas == RegionAreas::limits) return true;
@@ -104,7 +95,7 @@ Mesh<D> run_fastest(const Graph<D>& graph, const Options<D>& options, RunReport&
     return run(algorithm, graph, options, report, control, refinement);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::too_close && error.code() != ErrorCode::too_many) throw;
-    if (has_static_options(options)) throw;
+    if (options.growth != 0) throw;  // gap-balls does not know it
     report.tried = algorithm;
     report.gave_up = error;
   }

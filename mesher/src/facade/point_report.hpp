@@ -29,6 +29,7 @@ template <int D>
 auto PointState<D>::simplices() const -> std::vector<Simplex> {
   std::vector<Simplex> all;
   pool().for_each([&](const Vertex<D>& v) {
+    if (!v.alive) return;
     for_each_own_simplex(pool(), v, vertices().ring(v),
                          [&](const Simplex& t) { all.push_back(t); });
   });

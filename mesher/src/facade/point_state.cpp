@@ -174,7 +174,7 @@ Change<D> PointState<D>::first_run(Edits<D> edits, const RunControl& control,
   const Watch watch(*engine_, control, meter);
   const CallCounts calls = call_counts(engine_->template run<refine<D>>());
   commit();
-  require_room(pool().size());
+  require_room(pool().size() - vertices().trials());
   require_features();
   ran_ = true;
   const std::vector<Simplex> come = simplices();
@@ -291,7 +291,7 @@ Change<D> PointState<D>::propagate(const Edits<D>& edits, const RunControl& cont
   ask_ = asking(control, Phase::update, &fail_stopped);
   make(edits);
   // While it is under way, there may be vertices that come as well as those that go.
-  world_->most_records = std::max(world_->most_vertices, pool().size() + world_->most_vertices);
+  world_->most_records = std::max(world_->most_vertices, pool().size() - vertices().trials() + world_->most_vertices);
   try {
     const Watch watch(*engine_, control, meter);
     change.calls = call_counts(engine_->propagate(report));

@@ -134,13 +134,15 @@ void LiveTriangulation<D>::note_doomed() {
 
 template <int D>
 bool LiveTriangulation<D>::insert(const Vertex<D>& v) {
-  SAC_EXPECTS(v.self == kernel_.places() + 1);
+  SAC_EXPECTS(v.self > kernel_.places() || !kernel_.has(v.self));
   const std::uint32_t from = kernel_.simplex_at(center_ != 0 ? center_ : kernel_.last_changed());
   const std::uint32_t s = kernel_.walk(v.p, from);
   for (const std::uint32_t w : kernel_.simplices().corners(s)) {
     if (w != kInfinite && kernel_.place(w) == v.p) return false;
   }
-  const std::uint32_t u = kernel_.add_place(v.p);
+  const std::uint32_t u = v.self;
+  while (kernel_.places() < u) static_cast<void>(kernel_.add_place(v.p));
+  kernel_.set_place(u, v.p);
   make_room();
   kernel_.dig(u, s);
   note_doomed();
@@ -224,6 +226,24 @@ void LiveTriangulation<D>::read(CellOf<D>& cell, const Vertex<D>& v, double radi
   if (!on_hull_) return read_star(cell, v, radius);
   ring_.clear();
   for_each_neighbour(v.self, [&](VertexHandle u) { ring_.push_back({u, kernel_.place(u)}); });
+  cell.begin_among(v, radius, ring_);
+}
+
+template <int D>
+void LiveTriangulation<D>::read_as_if(CellOf<D>& cell, const Vertex<D>& v, VertexHandle near,
+                                      double radius) {
+  const std::uint32_t s = kernel_.walk(v.p, kernel_.simplex_at(near));
+  const std::uint32_t u = kernel_.add_place(v.p);
+  ring_.clear();
+  try {
+    kernel_.dig(u, s);
+    kernel_.for_each_in_link([&](std::uint32_t w) { ring_.push_back({w, kernel_.place(w)}); });
+  } catch (...) {
+    kernel_.drop_place();
+    throw;
+  }
+  kernel_.undo_dig();
+  kernel_.drop_place();
   cell.begin_among(v, radius, ring_);
 }
 

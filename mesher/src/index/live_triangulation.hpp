@@ -7,7 +7,8 @@
 // A run begins with all its points. Far parts of them may have as many simplices as pairs of points
 // [rules B3]: then of() gives none, and cells are searched for.
 //
-// Vertices are named by their handles, which count from 1 without a gap.
+// Vertices are named by their handles, which count from 1 without a gap; after the beginning some
+// may be of records that are no vertices.
 #pragma once
 
 #include <array>
@@ -35,14 +36,17 @@ class LiveTriangulation {
                                                              double good2,
                                                              const std::function<void()>& step);
 
-  /// Makes a vertex of the record with the next handle. False, and nothing done, if there is one in
-  /// its place. Cost: as an insertion near the vertex that was asked about last.
+  /// Makes a vertex of a record. False, and nothing done, if there is one in its place. Requires: it
+  /// has been made since of(), and is none. Cost: as an insertion near the vertex that was asked about last.
   bool insert(const Vertex<D>& v);
 
   /// Whether all simplices around v are surely good, with circumradii surely less than `radius`.
   [[nodiscard]] bool is_settled(const Vertex<D>& v, double radius);
   /// Makes `cell` the cell of v with the clip `radius`.
   void read(CellOf<D>& cell, const Vertex<D>& v, double radius);
+  /// Makes `cell` what the cell of v, which is no vertex, would be. Requires: no vertex is at its
+  /// place, which is inside of the box; `near` is a vertex. Cost: as an insertion near it.
+  void read_as_if(CellOf<D>& cell, const Vertex<D>& v, VertexHandle near, double radius);
   struct Nearest {
     VertexHandle handle;
     double distance2;
@@ -117,6 +121,7 @@ requires(D > 3) class LiveTriangulation<D> {
   bool insert(const Vertex<D>&) { return false; }
   [[nodiscard]] bool is_settled(const Vertex<D>&, double) { return false; }
   void read(CellOf<D>&, const Vertex<D>&, double) {}
+  void read_as_if(CellOf<D>&, const Vertex<D>&, VertexHandle, double) {}
   struct Nearest {
     VertexHandle handle;
     double distance2;

@@ -74,6 +74,7 @@ class Observers {
   static constexpr std::uint8_t kNearest = 2;
   static constexpr std::uint8_t kCell = 1;
   static constexpr std::uint8_t kStar = 3;
+  static constexpr std::uint8_t kTrial = 5;  // a cell, of what is no vertex
   static constexpr std::uint32_t kUnknown = 0xffffffffu;
 
   Observers(sac::Engine& engine, VertexPool<D>& pool, Quadtree<D>& tree)
@@ -111,6 +112,9 @@ class Observers {
     look();
   }
 
+  [[nodiscard]] static bool is_cell(const Observation& o) noexcept {
+    return o.kind == kCell || o.kind == kTrial;
+  }
   /// What it saw: a cell as it was written down, or the nearest vertex.
   [[nodiscard]] std::span<const std::uint32_t> seen(const Observation& o) const noexcept;
   /// The vertices that it saw, and virtual neighbours.

@@ -96,6 +96,7 @@ void VertexIndex<sac::Scope, D>::produced(sac::Scope& s, Vertex<D>& v, BirthEdge
   SAC_ENSURES(s.place() == self);  // calls of the program act before they call
   const auto window = presences_.produced(v.presence, edge, self);
   v.alive = true;
+  set_trial(v, false);
   if (!was_there) {
     set_role(v, role);  // nobody has seen it
   } else if (v.presence.birth() == self) {
@@ -149,7 +150,7 @@ template <int D>
 void VertexIndex<sac::Scope, D>::limits_changed(const Box<D>& where) noexcept {
   tree_.visit_reaching(where, [&](const Vertex<D>& center) {
     observers_.find_at(center, [&](const Observation& o) {
-      if (o.kind == kCell) engine_.invalidate(engine_.call(o.call), &o);
+      if (Observers<D>::is_cell(o)) engine_.invalidate(engine_.call(o.call), &o);
       return false;
     });
   });
@@ -271,11 +272,16 @@ bool VertexIndex<sac::Scope, D>::begin(Cell& cell, const Vertex<D>& v, double ra
   cell.reset(v, radius);
   const CellSeen* made_in = engine_.appending() ? nullptr : cell_of_producer(v);
   if (made_in == nullptr) return false;
-  add_candidate(cell, made_in->center);
-  for (const std::uint32_t u : observers_.neighbours(*made_in)) {
+  add_neighbours(cell, *made_in);
+  return true;
+}
+
+template <int D>
+void VertexIndex<sac::Scope, D>::add_neighbours(const Cell& cell, const CellSeen& seen) const {
+  add_candidate(cell, seen.center);
+  for (const std::uint32_t u : observers_.neighbours(seen)) {
     if (u < Cell::kVirtual) add_candidate(cell, u);
   }
-  return true;
 }
 
 // Where neighbours of a star have gone, and it has been cut by all that came, who takes their
@@ -356,7 +362,54 @@ CellLoan<D> VertexIndex<sac::Scope, D>::voronoi_cell(sac::Scope& s, VertexRef<D>
       look(*v, radius, last, [&](VertexHandle u) { return born_before(pool_[u], self); });
   s.weigh(take_visited());
   cell->write(codes_);
-  record_cell(s, *v, *cell, clip);
+  record_cell(s, *v, *cell, clip, kCell);
+  return cell;
+}
+
+// What is tried is a record without producers; it is freed when nobody observes it.
+template <int D>
+VertexRef<D> VertexIndex<sac::Scope, D>::trial_record(sac::Scope& s, const Point<D>& p) {
+  if (Vertex<D>* v = tree_.find(p); v != nullptr) {
+    if (born_before(*v, s.self())) fail_coincident(p);
+    return {v};
+  }
+  Vertex<D>& v = add(p);
+  set_trial(v, true);
+  touch(v);
+  return {&v};
+}
+
+template <int D>
+CellLoan<D> VertexIndex<sac::Scope, D>::trial(sac::Scope& s, const Point<D>& p, VertexRef<D> near,
+                                              double radius) {
+  const sac::Call& self = s.self();
+  const sac::Ref<sac::Call> caller = engine_.handle_of(self);
+  const float clip = packed(radius);
+  SAC_EXPECTS(unpacked(clip) == radius);
+  const VertexRef<D> v = trial_record(s, p);
+  const auto seen = [&](VertexHandle u) { return born_before(pool_[u], self); };
+  const Observation* last = observers_.find_at(*v, [&](const Observation& o) {
+    return o.kind == kTrial && o.call == caller && static_cast<const CellSeen&>(o).radius == clip;
+  });
+  CellLoan<D> cell = borrow_cell();
+  if (reads()) {
+    live_->read_as_if(*cell, *v, near->self, radius);
+  } else if (last != nullptr && observers_.knows_arrivals(*last)) {
+    const auto arrivals = [&](auto&& visit) { observers_.for_each_arrival(*last, visit); };
+    begin_repair(*cell, *v, radius, observers_.seen(*last), arrivals, seen);
+    finish_known(*cell, seen);
+  } else {
+    cell->reset(*v, radius);
+    const Observation* around = observers_.find_at(*near, [&](const Observation& o) {
+      return o.kind == kCell && o.call == caller;
+    });
+    if (around != nullptr) add_neighbours(*cell, static_cast<const CellSeen&>(*around));
+    cut_by_candidates(*cell, seen);
+    finish(*cell, seen);
+  }
+  s.weigh(take_visited());
+  cell->write(codes_);
+  record_cell(s, *v, *cell, clip, kTrial);
   return cell;
 }
 
@@ -405,7 +458,7 @@ void VertexIndex<sac::Scope, D>::fill(sac::Scope& s, Observation& o, Vertex<D>& 
 
 template <int D>
 void VertexIndex<sac::Scope, D>::record_cell(sac::Scope& s, Vertex<D>& v, const CellOf<D>& cell,
-                                             float radius) {
+                                             float radius, std::uint8_t kind) {
   const Reach<D> reach = concern(cell);
   const auto same = [&](const CellSeen& o) {
     return o.center == v.self && o.reach == reach && o.radius == radius &&
@@ -413,12 +466,12 @@ void VertexIndex<sac::Scope, D>::record_cell(sac::Scope& s, Vertex<D>& v, const 
   };
   // If this run of the call asks less of features than the last one, it is told of more than it
   // must be: an update that fails leaves the observation as it was.
-  last_cell_ = s.recall<CellSeen>(id_, kCell, same);
+  last_cell_ = s.recall<CellSeen>(id_, kind, same);
   if (last_cell_ != nullptr) {
     last_cell_->arrivals = 0;
     return;
   }
-  last_cell_ = &s.observe<CellSeen>(id_, kCell, codes_.size() * sizeof(std::uint32_t));
+  last_cell_ = &s.observe<CellSeen>(id_, kind, codes_.size() * sizeof(std::uint32_t));
   last_cell_->radius = radius;
   last_cell_->count = static_cast<std::uint32_t>(codes_.size());
   std::copy(codes_.begin(), codes_.end(), last_cell_->codes());
@@ -473,6 +526,7 @@ sac::Handle VertexIndex<sac::Scope, D>::new_ring(VertexHandle center) {
 template <int D>
 void VertexIndex<sac::Scope, D>::forget(Observation& o) noexcept {
   observers_.unlink(o);
+  if (o.kind == kTrial && !pool_[o.center].alive) touch(pool_[o.center]);
   if (o.kind == kStar) log_.star_went(pool_[o.center], static_cast<StarSeen&>(o).ring);
 }
 
@@ -521,7 +575,7 @@ void VertexIndex<sac::Scope, D>::print(const sac::Call&, const sac::Edge& edge,
   if (is_birth(edge)) {
     out << "inserts " << VertexRef<D>{&pool_[static_cast<const BirthEdge&>(edge).vertex]};
   } else {
-    out << (edge.kind == kNearest ? "nearest" : "neighbours");
+    out << (edge.kind == kNearest ? "nearest" : edge.kind == kTrial ? "tries" : "neighbours");
     for (const std::uint32_t code : canonical_codes(static_cast<const Observation&>(edge))) {
       if (code != 0 && code < Cell::kVirtual) out << ' ' << VertexRef<D>{&pool_[code]};
     }
@@ -560,6 +614,9 @@ void VertexIndex<sac::Scope, D>::commit() noexcept {
     v.committed_kind = v.kind();
     if (Ring* ring = find_ring(v)) ring->fresh = false;
     if (v.alive || v.input) return;
+    const bool tried = v.queries != 0;
+    set_trial(v, tried);
+    if (tried) return;
     tree_.erase(v);
     pool_.release(v);
   });
@@ -586,7 +643,8 @@ void VertexIndex<sac::Scope, D>::check_invariants() const {
 template <int D>
 void VertexIndex<sac::Scope, D>::check_vertex(const Vertex<D>& v) const {
   SAC_INVARIANT(tree_.find(v.p) == &v);
-  SAC_INVARIANT(v.alive == v.committed && v.alive != v.changed && (v.alive || !v.input));
+  SAC_INVARIANT(v.alive == v.committed && (v.alive || !v.input));
+  SAC_INVARIANT(v.alive ? !v.changed && !v.trial : v.changed || v.queries != 0);
   SAC_INVARIANT(v.alive == (v.boundary || v.presence.there()));
   presences_.check_invariants(v.presence);
   if (v.presence.there()) {

@@ -8,6 +8,8 @@
 //   voronoi_cell(s, v, R)  v's gap balls up to R, among the vertices born   (observation)
 //                          before the running call
 //   nearest2(s, v)         squared distance to v's nearest neighbour        (observation)
+//   trial(s, p, v, R)      what the cell at p would be, were a vertex born  (observation)
+//                          there; v is a vertex near it
 //   star(s, v)             v's Delaunay star among all vertices             (observation)
 //
 // A vertex that comes or goes invalidates exactly the later observations that it concerns: one that
@@ -107,6 +109,17 @@ class VertexIndex<sac::PlainScope, D> : public VertexSearch<D> {
     fill_tree();
     return Base::nearest_around(*v, [](VertexHandle) { return true; }).distance2;
   }
+  /// The cell is centred at a record that is good until the next trial.
+  CellLoan<D> trial(sac::PlainScope&, const Point<D>& p, VertexRef<D> near, double radius) {
+    tried_ = Vertex<D>{};
+    tried_.p = p;
+    if (searches()) return Base::cut_around(tried_, radius, [](VertexHandle) { return true; });
+    CellLoan<D> cell = Base::borrow_cell();
+    live_->read_as_if(*cell, tried_, near->self, radius);
+    return cell;
+  }
+  /// Of the pool, that are no vertices between calls.
+  [[nodiscard]] std::size_t trials() const noexcept { return 0; }
   CellLoan<D> star(sac::PlainScope& s, VertexRef<D> v) { return voronoi_cell(s, v, Base::whole()); }
   /// Of all vertices, from begin_questions() on; null if the quadtree is searched.
   [[nodiscard]] const LiveTriangulation<D>* triangulation() const noexcept { return live_.get(); }
@@ -133,6 +146,7 @@ class VertexIndex<sac::PlainScope, D> : public VertexSearch<D> {
 
   std::unique_ptr<LiveTriangulation<D>> live_;
   bool in_tree_ = false;
+  Vertex<D> tried_;
 };
 
 template <int D>
@@ -169,6 +183,9 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   VertexRef<D> insert_early(sac::Scope& s, const Point<D>& p);
   void insert(sac::Scope& s, VertexRef<D> v);
   CellLoan<D> voronoi_cell(sac::Scope& s, VertexRef<D> v, double radius);
+  CellLoan<D> trial(sac::Scope& s, const Point<D>& p, VertexRef<D> near, double radius);
+  /// Records that have only been tried.
+  [[nodiscard]] std::size_t trials() const noexcept { return trials_; }
   /// In space: who has seen the last cell has asked for features within this of its vertex, but not
   /// beyond VertexSearch::beside.
   void note_asked(double distance) noexcept {
@@ -240,7 +257,7 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
         return away <= r;
       };
       observers_.find_at(center, [&](const Observation& o) {
-        if (o.kind != kCell) return false;
+        if (!Observers<D>::is_cell(o)) return false;
         const auto& cell = static_cast<const CellSeen&>(o);
         const double asked = std::min(cell.features_within * box_.side, Base::beside(o.reach));
         if (is_within(asked)) engine_.invalidate(engine_.call(o.call), &o);
@@ -284,6 +301,7 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   static constexpr std::uint8_t kNearest = Observers<D>::kNearest;
   static constexpr std::uint8_t kStar = Observers<D>::kStar;
   static constexpr std::uint8_t kBirthOnSegment = 4;
+  static constexpr std::uint8_t kTrial = Observers<D>::kTrial;
 
   struct BirthEdge : sac::ProducerEdge {
     VertexHandle vertex;
@@ -325,7 +343,7 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   template <class Visit>
   void for_each_cell_with(const Vertex<D>& v, Visit&& visit) noexcept {
     observers_.for_each_reaching(v.p, [&](const Vertex<D>& center, Observation& o) {
-      if (o.kind != kCell) return;
+      if (!Observers<D>::is_cell(o)) return;
       const auto seen = observers_.neighbours(o);
       const bool bounds = std::find(seen.begin(), seen.end(), v.self) != seen.end();
       if (bounds || center.self == v.self) visit(o);
@@ -333,8 +351,15 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   }
   template <class Seen>
   CellLoan<D> look(const Vertex<D>& v, double radius, const Observation* last, Seen&& seen);
+  [[nodiscard]] VertexRef<D> trial_record(sac::Scope& s, const Point<D>& p);
+  void set_trial(Vertex<D>& v, bool trial) noexcept {
+    if (v.trial != trial) trial ? ++trials_ : --trials_;
+    v.trial = trial;
+  }
+  void add_neighbours(const Cell& cell, const CellSeen& seen) const;
   void fill(sac::Scope& s, Observation& o, Vertex<D>& v, Reach<D> reach) noexcept;
-  void record_cell(sac::Scope& s, Vertex<D>& v, const CellOf<D>& cell, float radius);
+  void record_cell(sac::Scope& s, Vertex<D>& v, const CellOf<D>& cell, float radius,
+                   std::uint8_t kind);
   /// In units of the box's side, rounded up.
   [[nodiscard]] float in_sides(double distance) const noexcept {
     return static_cast<float>(distance / box_.side * (1 + 0x1p-20));
@@ -366,6 +391,7 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   std::unique_ptr<LiveTriangulation<D>> live_;  // in a first run
   std::optional<FirstStars<D>> first_stars_;    // while a first run triangulates
   std::vector<VertexHandle> gone_;              // the neighbours being replaced
+  std::size_t trials_ = 0;
 };
 
 }  // namespace mesher::detail

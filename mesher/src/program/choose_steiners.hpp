@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "program/lines.hpp"
+#include "program/split_slivers.hpp"
 #include "program/staying.hpp"
 #include "program/world.hpp"
 
@@ -94,6 +95,7 @@ void Complete::operator()(S& s, VertexRef<D> v, int b) const {
   }
   const std::optional<int> later = cuts ? b + 1 : w.rule->next_bucket(*gaps, b, stays.filter());
   s.weigh(stays.looked_at());
+  post_slivers(s, w, *gaps, b);
   if (later) w.post_complete(s, v, *later);
 }
 

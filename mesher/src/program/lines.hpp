@@ -47,14 +47,14 @@ Outcome yields(S&, World<S, D>&, Staying<S, D>&, const typename InsertionRule<D>
   return Outcome::stands;
 }
 
-/// Whether lines or polygons may concern Complete(v, b).
+/// Whether lines, polygons or slivers may concern Complete(v, b).
 template <class S>
 bool has_lines_at(const World<S, 2>& w, VertexRef<2> v) {
   return v->on_segment && w.leaves.any();
 }
 template <class S>
 bool has_lines_at(const World<S, 3>& w, VertexRef<3>) {
-  return w.has_features();
+  return w.has_features() || w.slivers.any();
 }
 template <class S, int D>
 bool has_lines_at(const World<S, D>&, VertexRef<D>) {

@@ -98,7 +98,7 @@ struct PointWorld {
   }
   /// Throws: Error(too_many) if there are more vertices than there may be.
   void require_room(S& s) const {
-    if (vertices.pool().size() > most_records) fail_too_many(s);
+    if (vertices.pool().size() - vertices.trials() > most_records) fail_too_many(s);
   }
   void fail_too_many(S& s) const;
 

@@ -5,6 +5,7 @@
 #include "program/filling.hpp"
 #include "program/input_features.hpp"
 #include "program/point_world.hpp"
+#include "rules/sliver_rule.hpp"
 #include "space/guard.hpp"
 #include "space/placed.hpp"
 #include "space/validity.hpp"
@@ -25,6 +26,7 @@ struct World<S, 3> : PointWorld<S, 3> {
   Surroundings<S, 3> surroundings;
   Agenda& splits;
   Agenda& fills;
+  const SliverRule slivers;
   const bool guarded;                         // space/guard.hpp
   const SpaceNames* feature_names = nullptr;  // for messages; null: features have none
 
@@ -36,6 +38,7 @@ struct World<S, 3> : PointWorld<S, 3> {
         surroundings(box, limits, Obstacles<S, 3>(features, plc.store()), host),
         splits(host.make_agenda("edges", kKeyWidths)),
         fills(host.make_agenda("facets", kKeyWidths)),
+        slivers(box, options.min_dihedral),
         guarded(options.rho < kGuarded) {
     host.set_environment(this);
     if constexpr (S::kTraced) plc.set_listeners(vertices, surroundings);
@@ -71,6 +74,7 @@ struct World<S, 3> : PointWorld<S, 3> {
     const bool crowded = plc.crowded(s, piece);
     return crowded || limits.is_long(FacetBall(piece).box(), piece.longer_side(), kWidestPiece);
   }
+  void post_split_slivers(S& s, VertexRef<3> v, int b);
   /// A vertex that cuts the cell of v, in bucket b.
   void insert_beside(S& s, const Vertex<3>& v, CellOf<3>& cell, const Placed& y, int b);
   /// What is said where there are too many vertices.

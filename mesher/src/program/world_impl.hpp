@@ -11,6 +11,7 @@
 #include "program/fill_facets.hpp"
 #include "program/split_edges.hpp"
 #include "program/split_segments.hpp"
+#include "program/split_slivers.hpp"
 #include "program/triangulate.hpp"
 #include "program/world.hpp"
 #include "space/space_budget.hpp"
@@ -281,6 +282,13 @@ template <class S>
 void World<S, 3>::post_fill(S& s, const FacetPiece& piece) {
   if constexpr (!S::kTraced) this->plain.tick();
   fills.template post<fill_facet>(s, fill_facet_key(box, piece), piece);
+}
+
+template <class S>
+void World<S, 3>::post_split_slivers(S& s, VertexRef<3> v, int b) {
+  if constexpr (!S::kTraced) this->plain.tick();
+  const sac::Key key = split_slivers_key(this->buckets(), box.fixed(v->p), b);
+  this->steiner.template post<split_slivers>(s, key, v, b);
 }
 
 template <class S>

@@ -42,6 +42,7 @@ struct Vertex {
   bool star_changed : 1 = false;  // its star is not the one of the last update
   bool on_segment : 1 = false;    // stands for a place on a segment: VertexSearch::role
   bool feature : 1 = false;       // among the features as an input point
+  bool trial : 1 = false;         // has been asked about, but never was a vertex
 
   [[nodiscard]] VertexKind kind() const noexcept {
     if (boundary) return VertexKind::boundary;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "delaunay/facets.hpp"
@@ -15,49 +14,16 @@ namespace mesher::detail {
 
 namespace {
 
-// How much of a sliver's radius, squared, a new vertex may be from its centre.
-constexpr double kOff2 = 0.6;
-// Nearer than this to a side of the box, in units of the side, nothing is inserted.
-constexpr double kOffSide = 0x1p-3;
 // Of a floor, squared: what is shorter than an eighth of it comes of features that ask for each
 // other.
 constexpr double kBelow = 0x1p-6;
 // How often slivers that have found no place are tried again.
 constexpr int kRounds = 3;
 
-/// Of a tetrahedron: the largest cosine of a dihedral angle, squared with its sign; the same bits
-/// in whatever order its corners come.
-double score(std::array<const Point<3>*, 4> corners) {
-  std::sort(corners.begin(), corners.end(), [](auto* p, auto* q) { return *p < *q; });
-  const Point<3> a = minus(*corners[1], *corners[0]), b = minus(*corners[2], *corners[0]),
-                 c = minus(*corners[3], *corners[0]);
-  std::array<Point<3>, 4> normal{Point<3>{}, cross(b, c), cross(c, a), cross(a, b)};
-  normal[0] = scaled(-1, plus(normal[1], plus(normal[2], normal[3])));
-  std::array<double, 4> length2;
-  for (std::size_t i = 0; i < 4; ++i) length2[i] = squared(normal[i]);
-  double worst = -1;
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      const double d = -dot(normal[i], normal[k]);
-      const double cosine2 = d * std::abs(d) / (length2[i] * length2[k]);
-      if (!(cosine2 <= worst)) worst = std::min(cosine2, 1.0);  // of what is flat it is no number
-    }
-  }
-  return worst;
-}
-
 }  // namespace
 
 Slivers::Slivers(const MeshBox<3>& box, double rho, double min_dihedral, bool is_thorough)
-    : box_(box),
-      rho_(rho),
-      is_thorough_(is_thorough),
-      most_(min_dihedral <= 10   ? 12
-            : min_dihedral <= 12 ? 16
-                                 : 24) {
-  const double cosine = std::cos(min_dihedral * (std::numbers::pi / 180));
-  worst_ = min_dihedral > 0 ? cosine * cosine : 1;
-}
+    : rule_(box, min_dihedral), rho_(rho), is_thorough_(is_thorough) {}
 
 void Slivers::start(const Kernel& kernel, const std::vector<VertexKind>& kinds) {
   started_ = true;
@@ -113,12 +79,12 @@ void Slivers::look_at(const Kernel& kernel, const std::vector<VertexKind>& kinds
                   [&](std::uint32_t v) { return kinds[v] == VertexKind::boundary; })) {
     return;
   }
-  if (score_of(kernel, s) > worst_) add(kernel, s);
+  if (score_of(kernel, s) > rule_.worst()) add(kernel, s);
 }
 
 double Slivers::score_of(const Kernel& kernel, std::uint32_t s) {
   const auto& c = kernel.simplices().corners(s);
-  return score(
+  return SliverRule::score(
       {&kernel.place(c[0]), &kernel.place(c[1]), &kernel.place(c[2]), &kernel.place(c[3])});
 }
 
@@ -219,36 +185,19 @@ void Slivers::find_places(Kernel& kernel, std::uint32_t s) {
   find_beside(kernel, s);
   const auto& corners = kernel.simplices().corners(s);
   const auto [centre, radius2] = ball_to_split(kernel, s);
-  const double spacing = std::scalbn(box_.side, std::ilogb(std::sqrt(radius2) / (2 * box_.side)));
-  std::array<double, 3> nearest;
-  for (std::size_t i = 0; i < 3; ++i) {
-    // What is halfway but for rounding goes down.
-    nearest[i] = std::ceil((centre[i] - box_.lo[i]) / spacing - (0.5 + 0x1p-20));
-  }
-  const double margin = kOffSide * box_.side;
-  for (int k = 0; k < 54; ++k) {
-    const std::array<int, 3> step{k % 3 - 1, k / 3 % 3 - 1, k / 9 % 3 - 1};
-    Place place{0, std::numeric_limits<double>::infinity(), {}};
-    bool is_inside = true;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double at = nearest[i] + step[i] + (k < 27 ? 0 : 0.5);
-      place.at[i] = box_.lo[i] + spacing * at;
-      is_inside = is_inside && place.at[i] >= box_.lo[i] + margin &&
-                  place.at[i] <= box_.hi(static_cast<int>(i)) - margin;
-    }
-    if (!is_inside || squared_distance(place.at, centre) >= kOff2 * radius2) continue;
+  rule_.for_each_place(centre, radius2, [&](const Point<3>& at, double) {
+    Place place{0, std::numeric_limits<double>::infinity(), at};
     for (const std::uint32_t v : corners) {
-      place.nearest2 = std::min(place.nearest2, squared_distance(place.at, kernel.place(v)));
+      place.nearest2 = std::min(place.nearest2, squared_distance(at, kernel.place(v)));
     }
-    for (const std::uint32_t other : beside_)
-      place.takes += kernel.conflicts(other, place.at) ? 1 : 0;
+    for (const std::uint32_t other : beside_) place.takes += kernel.conflicts(other, at) ? 1 : 0;
     places_.push_back(place);
-  }
+  });
   std::sort(places_.begin(), places_.end(), [](const Place& p, const Place& q) {
     if (p.takes != q.takes) return p.takes > q.takes;
     return p.nearest2 != q.nearest2 ? p.nearest2 > q.nearest2 : p.at < q.at;
   });
-  if ((rounds_ == 0 || !is_thorough_) && places_.size() > most_) places_.resize(most_);
+  if ((rounds_ == 0 || !is_thorough_) && places_.size() > rule_.most()) places_.resize(rule_.most());
 }
 
 /// The worst of the tetrahedra around v; what is not below `enough` may be less than that.
@@ -256,7 +205,7 @@ double Slivers::score_of_dug(const Kernel& kernel, std::uint32_t v, double enoug
   double worst = -1;
   kernel.for_each_facet_of_hole([&](const std::array<std::uint32_t, 3>& facet) {
     if (worst >= enough) return;
-    worst = std::max(worst, score({&kernel.place(v), &kernel.place(facet[0]),
+    worst = std::max(worst, SliverRule::score({&kernel.place(v), &kernel.place(facet[0]),
                                    &kernel.place(facet[1]), &kernel.place(facet[2])}));
   });
   return worst;

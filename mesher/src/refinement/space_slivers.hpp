@@ -30,6 +30,7 @@
 
 #include "delaunay/kernel.hpp"
 #include "geometry/grid.hpp"
+#include "rules/sliver_rule.hpp"
 
 namespace mesher::detail {
 
@@ -42,7 +43,7 @@ class Slivers {
   Slivers(const MeshBox<3>& box, double rho, double min_dihedral, bool is_thorough);
 
   /// Whether there may be any.
-  [[nodiscard]] bool any() const noexcept { return worst_ < 1; }
+  [[nodiscard]] bool any() const noexcept { return rule_.any(); }
   [[nodiscard]] bool started() const noexcept { return started_; }
   /// Finds all that there are. Cost: O(n) for n simplices.
   void start(const Kernel& kernel, const std::vector<VertexKind>& kinds);
@@ -78,9 +79,7 @@ class Slivers {
     Point<3> centre;
     double radius2;
   };
-  // Scores are the largest cosine of a dihedral angle, squared with its sign: less is better, and
-  // what is left to 1 is the sine of the smallest angle, squared.
-  static constexpr double kRefused = 2;
+  static constexpr double kRefused = 2;  // a score, as SliverRule's
   static constexpr double kLeast = 0x1p-30;  // that a score is better by
   // Where features are, a place that leaves a small angle is better if its sine is twice as large.
   // (With any that is larger: of scans up to a third more vertices, for as many small angles.)
@@ -110,11 +109,9 @@ class Slivers {
   [[nodiscard]] static double score_of_dug(const Kernel& kernel, std::uint32_t v, double enough);
   [[nodiscard]] static double nearest2(const Kernel& kernel, std::uint32_t v);
 
-  MeshBox<3> box_;
+  SliverRule rule_;
   double rho_;
   bool is_thorough_;
-  double worst_;      // no score of a good tetrahedron is larger
-  std::size_t most_;  // places that are tried
   bool started_ = false;
   std::vector<Wait> wait_;      // by simplex
   std::vector<double> floor2_;  // by vertex
@@ -132,7 +129,7 @@ bool Slivers::dig(Kernel& kernel, std::uint32_t s, std::uint32_t v, Fits&& fits)
   const double floor2 = least_floor2(kernel, s);
   find_places(kernel, s);
   const double before = score_of(kernel, s);
-  double best = std::max(is_thorough_ ? before - kLeast : 1 - kBetter2 * (1 - before), worst_);
+  double best = std::max(is_thorough_ ? before - kLeast : 1 - kBetter2 * (1 - before), rule_.worst());
   const Point<3>* best_at = nullptr;
   const auto dig_at = [&](const Point<3>& p) {
     kernel.set_place(v, p);
@@ -144,14 +141,14 @@ bool Slivers::dig(Kernel& kernel, std::uint32_t s, std::uint32_t v, Fits&& fits)
     const bool may_be = nearest2(kernel, v) >= floor2 / 4 && fits();
     const double score = may_be ? score_of_dug(kernel, v, best) : kRefused;
     if (score <= best) best = score, best_at = &place.at;
-    if (best_at != nullptr && best <= worst_) break;
+    if (best_at != nullptr && best <= rule_.worst()) break;
     kernel.undo_dig();
   }
   if (best_at == nullptr) {
     wait_[s] = Wait::left;
     return false;
   }
-  if (best > worst_) dig_at(*best_at);
+  if (best > rule_.worst()) dig_at(*best_at);
   dug_floor2_ = floor2;
   ++split_;
   return true;

@@ -91,10 +91,9 @@ std::unique_ptr<const InsertionRule<D>> insertion_rule(const Options<D>& options
                                                        const MeshBox<D>& box,
                                                        const LimitsOf<D>& limits) {
   if constexpr (D == 3) {
-    if (options.min_dihedral != 0) {
+    if (options.min_dihedral != 0 && options.rule != Rule::radius_edge) {
       throw Error(ErrorCode::bad_option,
-                  "gap-balls, and so a mesh under edits, has no bound of dihedral angles yet: "
-                  "min_dihedral must be 0");
+                  "min_dihedral, by gap-balls and in a mesh under edits, needs the rule radius-edge");
     }
   }
   if (options.growth != 0) {

@@ -59,11 +59,12 @@ class InsertionRule {
   [[nodiscard]] const Buckets<D>& buckets() const noexcept { return buckets_; }
   [[nodiscard]] const Promise& promise() const noexcept { return promise_; }
 
- protected:
   /// Whether a circumradius is too large for an edge, both squared.
   [[nodiscard]] bool exceeds(double radius2, double edge2) const noexcept {
     return radius2 > rho2_ * edge2;
   }
+
+ protected:
   [[nodiscard]] double rho2() const noexcept { return rho2_; }
   [[nodiscard]] bool is_centre(const CellOf<D>& cell, int corner) const;
   /// `growth2`: to be farther, p must be from all vertices by more than this times length2.

@@ -110,6 +110,17 @@ std::optional<Placed> StarCrossings::place() {
   return std::nullopt;
 }
 
+bool StarCrossings::any() {
+  if (real_.empty()) return false;
+  near_.ask_within(reach_);
+  return any_of(find<Edge>()) || any_of(find<Polygon>());
+}
+
+template <class F>
+bool StarCrossings::any_of(const std::vector<const F*>& all) {
+  return std::any_of(all.begin(), all.end(), [&](const F* f) { return look_at(*f).has_value(); });
+}
+
 /// Of the nearest vertex of the star.
 double StarCrossings::nearest2(const Point<3>& x) const {
   double least = squared_distance(x, cell_.center().p);

@@ -53,6 +53,8 @@ class StarCrossings {
   /// it gets a vertex, which takes some of the cell. Nothing: none crosses.
   /// Throws: Error (too_close), if rounding leaves no such place.
   [[nodiscard]] std::optional<Placed> place();
+  /// Whether one does.
+  [[nodiscard]] bool any();
 
  private:
   static constexpr int kSelf = -1;
@@ -92,6 +94,8 @@ class StarCrossings {
   [[nodiscard]] bool meets(const Point<3>& middle, double radius) const noexcept;
   template <class F>
   [[nodiscard]] std::vector<const F*> find() const;
+  template <class F>
+  [[nodiscard]] bool any_of(const std::vector<const F*>& all);
   template <class F, class Is>
   [[nodiscard]] static const F* first(const std::vector<const F*>& all, Is&& is);
   [[nodiscard]] std::optional<Placed> place_leaning(const Polygon& f);

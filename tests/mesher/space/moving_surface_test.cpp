@@ -63,8 +63,10 @@ Graph<3> sphere(int depth) {
 
 class Surface {
  public:
-  explicit Surface(std::uint64_t seed)
-      : random_(seed), whole_(sphere(2)), mesher_({.domain = {{-2, -2, -2}, {2, 2, 2}}}) {
+  Surface(std::uint64_t seed, double min_dihedral)
+      : random_(seed),
+        whole_(sphere(2)),
+        mesher_({.domain = {{-2, -2, -2}, {2, 2, 2}}, .min_dihedral = min_dihedral}) {
     mesher_.insert(whole_);
     mesher_.update();
   }
@@ -110,27 +112,34 @@ class Surface {
   Mesher<3> mesher_;
 };
 
+// After each of some random edits.
+void check_edits(std::uint64_t seed, double min_dihedral) {
+  Surface surface(seed, min_dihedral);
+  Mesher<3>& m = surface.mesher();
+  const auto first = m.mesh();
+  for (int update = 0; update < 10; ++update) {
+    INFO("seed " << seed << ", update " << update);
+    for (int n = 0; n <= update % 3; ++n) surface.edit();
+    m.update();
+    const auto fresh = mesher::mesh(m.input(), m.options());
+    REQUIRE(m.mesh().vertices == fresh.mesh.vertices);
+    REQUIRE(m.mesh().simplices == fresh.mesh.simplices);
+    REQUIRE(m.mesh().features.faces == fresh.mesh.features.faces);
+    if (update % 5 == 4) m.check_invariants();
+  }
+  const auto last = m.mesh();
+  surface.restore();
+  m.update();
+  CHECK(m.mesh().vertices == first.vertices);
+  CHECK(last.vertices != first.vertices);
+}
+
 }  // namespace
 
 TEST_CASE("after each edit of a surface the mesh is a fresh run's") {
-  for (const std::uint64_t seed : {1, 2, 3}) {
-    Surface surface(seed);
-    Mesher<3>& m = surface.mesher();
-    const auto first = m.mesh();
-    for (int update = 0; update < 10; ++update) {
-      INFO("seed " << seed << ", update " << update);
-      for (int n = 0; n <= update % 3; ++n) surface.edit();
-      m.update();
-      const auto fresh = mesher::mesh(m.input(), m.options());
-      REQUIRE(m.mesh().vertices == fresh.mesh.vertices);
-      REQUIRE(m.mesh().simplices == fresh.mesh.simplices);
-      REQUIRE(m.mesh().features.faces == fresh.mesh.features.faces);
-      if (update % 5 == 4) m.check_invariants();
-    }
-    const auto last = m.mesh();
-    surface.restore();
-    m.update();
-    CHECK(m.mesh().vertices == first.vertices);
-    CHECK(last.vertices != first.vertices);
-  }
+  for (const std::uint64_t seed : {1, 2, 3}) check_edits(seed, 0);
+}
+
+TEST_CASE("after each edit of a surface the mesh is a fresh run's, with a bound of dihedral angles") {
+  for (const std::uint64_t seed : {4, 5, 6}) check_edits(seed, 10);
 }
