@@ -21,7 +21,7 @@ struct MeshArguments {
   std::string dimension;     // empty: that of the input
   std::string rho;           // empty: the default of the dimension
   std::string min_angle;     // degrees, in place of rho
-  std::string min_dihedral;  // degrees, of `mesh` alone
+  std::string min_dihedral;  // degrees
   std::string growth;        // of `mesh` alone
   std::string rule = "radius-edge";
   std::vector<std::string> domain;  // the lower corner, the upper corner; or nothing

@@ -126,12 +126,6 @@ void add_mesh(CLI::App& app) {
       ->check(CLI::IsMember({"auto", "gap-balls", "svr", "refine"}))
       ->capture_default_str();
   mesh->add_option(
-          "--min-dihedral", args->min_dihedral,
-          "In space, in degrees, at most 20: tetrahedra with smaller dihedral angles are\n"
-          "split where that makes these larger; 10 to 12 is what solvers want. Few remain,\n"
-          "but where features meet at small angles. For refine and svr")
-      ->type_name("D");
-  mesh->add_option(
           "--growth", args->growth,
           "Sizes grow by at most this factor from one simplex to the next, 1.05 to 100:\n"
           "at a distance d from edges of length e simplices are about as large as regular\n"

@@ -132,7 +132,8 @@ struct Options {
   double growth = 0;
   /// In degrees, at most 20, in space only; 0: no bound. Tetrahedra with a smaller dihedral angle
   /// are split where that makes it larger [Li, Teng 2001]: few remain, but where features meet at
-  /// small angles. For refine and svr. Users of solvers ask for 10 to 12.
+  /// small angles; there refine and svr leave fewer than gap_balls. A Mesher keeps the bound as its
+  /// mesh follows edits. For the rule radius_edge. Users of solvers ask for 10 to 12.
   std::conditional_t<D == 3, double, detail::InSpaceAlone> min_dihedral{};
 };
 

@@ -291,7 +291,8 @@ Change<D> PointState<D>::propagate(const Edits<D>& edits, const RunControl& cont
   ask_ = asking(control, Phase::update, &fail_stopped);
   make(edits);
   // While it is under way, there may be vertices that come as well as those that go.
-  world_->most_records = std::max(world_->most_vertices, pool().size() - vertices().trials() + world_->most_vertices);
+  world_->most_records =
+      std::max(world_->most_vertices, pool().size() - vertices().trials() + world_->most_vertices);
   try {
     const Watch watch(*engine_, control, meter);
     change.calls = call_counts(engine_->propagate(report));

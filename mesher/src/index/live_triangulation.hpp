@@ -36,8 +36,9 @@ class LiveTriangulation {
                                                              double good2,
                                                              const std::function<void()>& step);
 
-  /// Makes a vertex of a record. False, and nothing done, if there is one in its place. Requires: it
-  /// has been made since of(), and is none. Cost: as an insertion near the vertex that was asked about last.
+  /// Makes a vertex of a record. False, and nothing done, if there is one in its place. Requires:
+  /// it has been made since of(), and is none. Cost: as an insertion near the vertex that was asked
+  /// about last.
   bool insert(const Vertex<D>& v);
 
   /// Whether all simplices around v are surely good, with circumradii surely less than `radius`.

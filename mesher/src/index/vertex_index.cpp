@@ -400,9 +400,8 @@ CellLoan<D> VertexIndex<sac::Scope, D>::trial(sac::Scope& s, const Point<D>& p, 
     finish_known(*cell, seen);
   } else {
     cell->reset(*v, radius);
-    const Observation* around = observers_.find_at(*near, [&](const Observation& o) {
-      return o.kind == kCell && o.call == caller;
-    });
+    const Observation* around = observers_.find_at(
+        *near, [&](const Observation& o) { return o.kind == kCell && o.call == caller; });
     if (around != nullptr) add_neighbours(*cell, static_cast<const CellSeen&>(*around));
     cut_by_candidates(*cell, seen);
     finish(*cell, seen);

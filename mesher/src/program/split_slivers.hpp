@@ -15,12 +15,13 @@
 // lengths as floors [rules E5], needs these in the records of all vertices, so that a change of one
 // concerns all that see it; measured, both leave the same slivers: paper_map (x).)
 //
-// Among edges and polygons a place is good only if no feature crosses its star: all are unions of
-// edges and faces, as before.
+// Among edges and polygons a place is good only if none is close to it or crosses its star: all are
+// unions of edges and faces, as before.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -28,6 +29,7 @@
 #include "program/world.hpp"
 #include "rules/sliver_rule.hpp"
 #include "space/star_crossings.hpp"
+#include "space/yielding.hpp"
 
 namespace mesher::detail {
 
@@ -59,6 +61,10 @@ void for_each_sliver(const World<S, 3>& w, const VoronoiCell3& cell, Visit&& vis
   for (int t = 0; t < cell.corners(); ++t) {
     const auto& ends = cell.ends(t);
     if (!cell.real(ends[0]) || !cell.real(ends[1]) || !cell.real(ends[2])) continue;
+    if (w.slivers.is_surely_good(cell.neighbour(ends[0]), cell.neighbour(ends[1]),
+                                 cell.neighbour(ends[2]))) {
+      continue;
+    }
     const std::array<const Point<3>*, 4> at{&v.p, &cell.place(ends[0]), &cell.place(ends[1]),
                                             &cell.place(ends[2])};
     const double score = SliverRule::score(at);
@@ -126,6 +132,8 @@ class SliverSplitter {
   static constexpr int kTries = 3;
   // In units of the bucket's shortest length, squared.
   static constexpr double kRoom2 = 1.0 / 16;
+  // A place yields to features within kYields times this of the nearest vertex's distance.
+  static constexpr double kBeside = 0.25;
   static constexpr double kLeast = 0x1p-30;  // that a score is better by
 
   struct Place {
@@ -214,26 +222,27 @@ class SliverSplitter {
     for (int t = 0; t < star->corners(); ++t) {
       const auto& ends = star->ends(t);
       if (!star->real(ends[0]) || !star->real(ends[1]) || !star->real(ends[2])) continue;
-      tried.score = std::max(
-          tried.score, SliverRule::score({&at, &star->place(ends[0]), &star->place(ends[1]),
-                                          &star->place(ends[2])}));
+      tried.score =
+          std::max(tried.score, SliverRule::score({&at, &star->place(ends[0]),
+                                                   &star->place(ends[1]), &star->place(ends[2])}));
     }
-    if (is_crossed(*star) || !has_room(tried.nearest2)) return std::nullopt;
+    if (is_barred(*star, tried.nearest2) || !has_room(tried.nearest2)) return std::nullopt;
     return tried;
   }
 
   // Of the features a place has asked about those within its star. Where there are none it is not
   // known how far it would ask, and the first feature concerns whoever it might.
-  [[nodiscard]] bool is_crossed(VoronoiCell3& star) {
+  [[nodiscard]] bool is_barred(VoronoiCell3& star, double nearest2) {
     if (!w_.has_features()) {
       w_.vertices.note_asked(std::numeric_limits<double>::infinity());
       return false;
     }
     const FeaturesBeside near(w_.plc.store(), star.center().p, w_.vertices.beside(star));
     const auto role_of = [&](const Vertex<3>& u) { return w_.vertices.role(u); };
-    const bool crossed = StarCrossings(star, w_.vertices.pool(), near, role_of).any();
+    const bool barred = yield(near, star.center().p, kBeside * std::sqrt(nearest2)).has_value() ||
+                        StarCrossings(star, w_.vertices.pool(), near, role_of).any();
     w_.vertices.note_asked(near.asked());
-    return crossed;
+    return barred;
   }
 
   void insert(const Tried& tried) {

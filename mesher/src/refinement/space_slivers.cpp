@@ -197,7 +197,8 @@ void Slivers::find_places(Kernel& kernel, std::uint32_t s) {
     if (p.takes != q.takes) return p.takes > q.takes;
     return p.nearest2 != q.nearest2 ? p.nearest2 > q.nearest2 : p.at < q.at;
   });
-  if ((rounds_ == 0 || !is_thorough_) && places_.size() > rule_.most()) places_.resize(rule_.most());
+  if ((rounds_ == 0 || !is_thorough_) && places_.size() > rule_.most())
+    places_.resize(rule_.most());
 }
 
 /// The worst of the tetrahedra around v; what is not below `enough` may be less than that.
@@ -206,7 +207,7 @@ double Slivers::score_of_dug(const Kernel& kernel, std::uint32_t v, double enoug
   kernel.for_each_facet_of_hole([&](const std::array<std::uint32_t, 3>& facet) {
     if (worst >= enough) return;
     worst = std::max(worst, SliverRule::score({&kernel.place(v), &kernel.place(facet[0]),
-                                   &kernel.place(facet[1]), &kernel.place(facet[2])}));
+                                               &kernel.place(facet[1]), &kernel.place(facet[2])}));
   });
   return worst;
 }

@@ -79,7 +79,7 @@ class Slivers {
     Point<3> centre;
     double radius2;
   };
-  static constexpr double kRefused = 2;  // a score, as SliverRule's
+  static constexpr double kRefused = 2;      // a score, as SliverRule's
   static constexpr double kLeast = 0x1p-30;  // that a score is better by
   // Where features are, a place that leaves a small angle is better if its sine is twice as large.
   // (With any that is larger: of scans up to a third more vertices, for as many small angles.)
@@ -129,7 +129,8 @@ bool Slivers::dig(Kernel& kernel, std::uint32_t s, std::uint32_t v, Fits&& fits)
   const double floor2 = least_floor2(kernel, s);
   find_places(kernel, s);
   const double before = score_of(kernel, s);
-  double best = std::max(is_thorough_ ? before - kLeast : 1 - kBetter2 * (1 - before), rule_.worst());
+  double best =
+      std::max(is_thorough_ ? before - kLeast : 1 - kBetter2 * (1 - before), rule_.worst());
   const Point<3>* best_at = nullptr;
   const auto dig_at = [&](const Point<3>& p) {
     kernel.set_place(v, p);

@@ -92,8 +92,9 @@ std::unique_ptr<const InsertionRule<D>> insertion_rule(const Options<D>& options
                                                        const LimitsOf<D>& limits) {
   if constexpr (D == 3) {
     if (options.min_dihedral != 0 && options.rule != Rule::radius_edge) {
-      throw Error(ErrorCode::bad_option,
-                  "min_dihedral, by gap-balls and in a mesh under edits, needs the rule radius-edge");
+      throw Error(
+          ErrorCode::bad_option,
+          "min_dihedral, by gap-balls and in a mesh under edits, needs the rule radius-edge");
     }
   }
   if (options.growth != 0) {

@@ -17,6 +17,23 @@ SliverRule::SliverRule(const MeshBox<3>& box, double min_dihedral)
   worst_ = min_dihedral > 0 ? cosine * cosine : 1;
 }
 
+bool SliverRule::is_surely_good(const Point<3>& a, const Point<3>& b,
+                                const Point<3>& c) const noexcept {
+  std::array<Point<3>, 4> normal{Point<3>{}, cross(b, c), cross(c, a), cross(a, b)};
+  normal[0] = scaled(-1, plus(normal[1], plus(normal[2], normal[3])));
+  std::array<double, 4> length2;
+  for (std::size_t i = 0; i < 4; ++i) length2[i] = squared(normal[i]);
+  const double most = worst_ * (1 - 0x1p-20);
+  bool good = true;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const double d = -dot(normal[i], normal[k]);
+      good &= d * std::abs(d) < most * length2[i] * length2[k];
+    }
+  }
+  return good;
+}
+
 double SliverRule::score(std::array<const Point<3>*, 4> corners) {
   std::sort(corners.begin(), corners.end(), [](auto* p, auto* q) { return *p < *q; });
   const Point<3> a = minus(*corners[1], *corners[0]), b = minus(*corners[2], *corners[0]),

@@ -27,6 +27,11 @@ class SliverRule {
   /// The same bits in whatever order the corners come; of what is flat 1.
   [[nodiscard]] static double score(std::array<const Point<3>*, 4> corners);
 
+  /// Whether the tetrahedron of 0, a, b and c surely is no sliver: nearly all are told in a tenth
+  /// of the time of a score.
+  [[nodiscard]] bool is_surely_good(const Point<3>& a, const Point<3>& b,
+                                    const Point<3>& c) const noexcept;
+
   /// Calls visit(place, distance2) for the points of a body-centred lattice that a vertex in this
   /// ball may go to, spaced by a power of two of the box's side, at most half of the radius:
   /// vertices for several slivers do not come close.

@@ -166,10 +166,15 @@ TEST_CASE("a bound of dihedral angles that cannot be kept is refused") {
   }
   options.min_dihedral = 12;
   options.algorithm = mesher::Algorithm::gap_balls;
+  CHECK_FALSE(refused());
+  options.rule = mesher::Rule::voronoi_aspect;
   CHECK(refused());
+  CHECK_THROWS_AS(mesher::Mesher<3>({.domain = {{0, 0, 0}, {1, 1, 1}},
+                                     .rule = mesher::Rule::voronoi_aspect,
+                                     .min_dihedral = 12.0}),
+                  mesher::Error);
   options.algorithm = mesher::Algorithm::automatic;
+  options.rule = mesher::Rule::radius_edge;
   options.max_measure = 1e-3;
   CHECK_FALSE(refused());
-  CHECK_THROWS_AS(mesher::Mesher<3>({.domain = {{0, 0, 0}, {1, 1, 1}}, .min_dihedral = 12.0}),
-                  mesher::Error);
 }

@@ -140,6 +140,7 @@ TEST_CASE("after each edit of a surface the mesh is a fresh run's") {
   for (const std::uint64_t seed : {1, 2, 3}) check_edits(seed, 0);
 }
 
-TEST_CASE("after each edit of a surface the mesh is a fresh run's, with a bound of dihedral angles") {
+TEST_CASE(
+    "after each edit of a surface the mesh is a fresh run's, with a bound of dihedral angles") {
   for (const std::uint64_t seed : {4, 5, 6}) check_edits(seed, 10);
 }
