@@ -4,6 +4,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "io/binary_off.hpp"
 #include "io/face_groups.hpp"
 #include "io/note_counter.hpp"
 #include "io/read_mesh.hpp"
@@ -28,7 +29,7 @@ void require_off(const text::Line& first) {
       std::find(std::begin(kOffHeaders), std::end(kOffHeaders), first[0]) != std::end(kOffHeaders);
   if (known && (first.size() == 1 || first.size() == 4)) return;
   throw first.error(ErrorCode::bad_header,
-                    "the first line must be 'OFF', 'COFF', 'NOFF' or 'CNOFF'", 0);
+                    "the first line must be 'OFF', 'COFF', 'NOFF', 'CNOFF' or 'OFF BINARY'", 0);
 }
 
 // Field i as a vertex, of so many. Throws: Error(bad_mesh).
@@ -82,6 +83,14 @@ enum class Faces : std::uint8_t { use, note };
 
 Surface read_off(const std::string& path, Faces use) {
   const std::string content = text::read_file(path);
+  if (is_binary_off(content)) {
+    Surface out = read_binary_off(path, content);
+    NoteCounter notes;
+    if (use == Faces::note && !out.faces.empty()) notes.add("faces are not used", {path});
+    if (use == Faces::note) out.faces.clear();
+    out.rows.add(notes.notes());
+    return out;
+  }
   text::FieldLines lines(path, content);
   const text::Line& first = header_row(lines, path);
   require_off(first);
