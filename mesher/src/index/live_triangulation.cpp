@@ -234,16 +234,21 @@ void LiveTriangulation<D>::read_as_if(CellOf<D>& cell, const Vertex<D>& v, Verte
                                       double radius) {
   const std::uint32_t s = kernel_.walk(v.p, kernel_.simplex_at(near));
   const std::uint32_t u = kernel_.add_place(v.p);
+  struct Undo {
+    Kernel& kernel;
+    bool dug = false;
+    ~Undo() {
+      if (dug) kernel.undo_dig();
+      kernel.drop_place();
+    }
+  };
   ring_.clear();
-  try {
+  {
+    Undo undo{kernel_};
     kernel_.dig(u, s);
+    undo.dug = true;
     kernel_.for_each_in_link([&](std::uint32_t w) { ring_.push_back({w, kernel_.place(w)}); });
-  } catch (...) {
-    kernel_.drop_place();
-    throw;
   }
-  kernel_.undo_dig();
-  kernel_.drop_place();
   cell.begin_among(v, radius, ring_);
 }
 

@@ -122,14 +122,12 @@ class SliverSplitter {
         again = again || next().has_value();
         break;
       }
-      again = again || b_ < w_.buckets().bucket(sliver->shortest2) + kTries - 1;
+      again = again || may_try_again(*sliver);
     }
     if (again && b_ + 1 < w_.buckets().count()) w_.post_split_slivers(s_, v_, b_ + 1);
   }
 
  private:
-  // In how many buckets a sliver is tried.
-  static constexpr int kTries = 3;
   // In units of the bucket's shortest length, squared.
   static constexpr double kRoom2 = 1.0 / 16;
   // A place yields to features within kYields times this of the nearest vertex's distance.
@@ -150,6 +148,10 @@ class SliverSplitter {
 
   [[nodiscard]] static Corners corners_of(const SliverInStar& sliver) {
     return {*sliver.others[0], *sliver.others[1], *sliver.others[2]};
+  }
+  // In two more buckets.
+  [[nodiscard]] bool may_try_again(const SliverInStar& sliver) const {
+    return b_ < w_.buckets().bucket(sliver.shortest2) + 2;
   }
   void remember(const SliverInStar& sliver) { done_.push_back(corners_of(sliver)); }
 
@@ -190,7 +192,7 @@ class SliverSplitter {
       return p.off2 != q.off2 ? p.off2 < q.off2 : p.at < q.at;
     });
     // At last all of them are tried.
-    const bool is_last = b_ >= w_.buckets().bucket(sliver.shortest2) + kTries - 1;
+    const bool is_last = !may_try_again(sliver);
     if (places_.size() > w_.slivers.most() && !is_last) places_.resize(w_.slivers.most());
   }
 

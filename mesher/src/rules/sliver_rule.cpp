@@ -24,6 +24,8 @@ bool SliverRule::is_surely_good(const Point<3>& a, const Point<3>& b,
   std::array<double, 4> length2;
   for (std::size_t i = 0; i < 4; ++i) length2[i] = squared(normal[i]);
   const double most = worst_ * (1 - 0x1p-20);
+  // Of shorter edges products lose digits.
+  if (*std::min_element(length2.begin(), length2.end()) < 0x1p-400) return false;
   bool good = true;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t k = 0; k < i; ++k) {
@@ -36,8 +38,16 @@ bool SliverRule::is_surely_good(const Point<3>& a, const Point<3>& b,
 
 double SliverRule::score(std::array<const Point<3>*, 4> corners) {
   std::sort(corners.begin(), corners.end(), [](auto* p, auto* q) { return *p < *q; });
-  const Point<3> a = minus(*corners[1], *corners[0]), b = minus(*corners[2], *corners[0]),
-                 c = minus(*corners[3], *corners[0]);
+  std::array<Point<3>, 3> edges;
+  double longest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    edges[i] = minus(*corners[i + 1], *corners[0]);
+    for (const double x : edges[i]) longest = std::max(longest, std::abs(x));
+  }
+  if (longest == 0) return 1;
+  // Products of eight lengths are in range then.
+  for (Point<3>& edge : edges) edge = scaled(std::scalbn(1.0, -std::ilogb(longest)), edge);
+  const auto& [a, b, c] = edges;
   std::array<Point<3>, 4> normal{Point<3>{}, cross(b, c), cross(c, a), cross(a, b)};
   normal[0] = scaled(-1, plus(normal[1], plus(normal[2], normal[3])));
   std::array<double, 4> length2;
@@ -47,7 +57,8 @@ double SliverRule::score(std::array<const Point<3>*, 4> corners) {
     for (std::size_t k = 0; k < i; ++k) {
       const double d = -dot(normal[i], normal[k]);
       const double cosine2 = d * std::abs(d) / (length2[i] * length2[k]);
-      if (!(cosine2 <= worst)) worst = std::min(cosine2, 1.0);  // of what is flat it is no number
+      if (!(cosine2 <= worst))
+        worst = cosine2 < 1 ? cosine2 : 1;  // of what is flat it is no number
     }
   }
   return worst;

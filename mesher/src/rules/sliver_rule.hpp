@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "geometry/grid.hpp"
+#include "geometry/space_vectors.hpp"
 
 namespace mesher::detail {
 

@@ -10,6 +10,7 @@
 
 #include "geometry/space_vectors.hpp"
 #include "mesher/extra/generate.hpp"
+#include "rules/mesh_box.hpp"
 
 namespace {
 
@@ -42,13 +43,22 @@ TEST_CASE("a score says the smallest dihedral angle, in whatever order the corne
   const Corners flat{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}};
   CHECK(score(flat) == 1);
   CHECK(score({{{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, {0, 0, 1}}}) == 1);
+  CHECK(score({{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}}}) == 1);
+  for (const int power : {-1000, -540, -140, -100, 0, 100, 250}) {
+    Corners scaled = sliver;
+    for (auto& p : scaled) {
+      for (double& x : p) x = std::scalbn(x, power);
+    }
+    CHECK(score(scaled) == score(sliver));
+  }
 
   mesher::SplitMix64 random(5);
   for (int i = 0; i < 200; ++i) {
     Corners c;
     for (auto& p : c) p = {random.unit(), random.unit(), random.unit() * (i % 2 == 0 ? 1 : 1e-6)};
     const double first = score(c);
-    const SliverRule rule(mesher::detail::mesh_box(mesher::Options<3>{}), 12);
+    const SliverRule rule(
+        mesher::detail::mesh_box(mesher::Options<3>{.domain = {{0, 0, 0}, {1, 1, 1}}}), 12);
     const bool good = rule.is_surely_good(minus(c[1], c[0]), minus(c[2], c[0]), minus(c[3], c[0]));
     CHECK((good ? first < rule.worst() : first > rule.worst() - 1e-3));
     std::sort(c.begin(), c.end());
