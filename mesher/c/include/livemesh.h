@@ -357,9 +357,9 @@ typedef struct lm_options {
   double domain_lo[3], domain_hi[3]; /* the box in which points may lie; all 0: around the input */
   double rho;                        /* bound of circumradius over shortest edge, above 1.01 */
   double min_angle;                  /* degrees, at most 29.6: in place of rho */
-  double min_dihedral; /* degrees, at most 20, in space; 0: any */
-  double max_measure;  /* the largest measure of a cell */
-  lm_handle sizes;     /* sizes that vary */
+  double min_dihedral;               /* degrees, at most 20, in space; 0: any */
+  double max_measure;                /* the largest measure of a cell */
+  lm_handle sizes;                   /* sizes that vary */
   uint64_t max_vertices;
   int32_t extent;        /* lm_extent: what lines (polygons) enclose, or all of the box */
   int32_t algorithm;     /* lm_algorithm */
