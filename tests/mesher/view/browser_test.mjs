@@ -280,7 +280,7 @@ tests['two tabs, and a server that is killed'] = async () => {
   await server.end('SIGKILL');
   await until('the page says so', () => one.evaluate(() => !document.getElementById('lost').hidden));
   server = await serve('tabs.poly');
-  assert.match(server.said(), /2 updates resumed/);
+  await until('it says so', async () => /2 updates resumed/.test(server.said()));
   const three = await open(server);
   assert.equal(await content(three), was);
   await three.click('#undo');
