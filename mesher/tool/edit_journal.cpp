@@ -100,6 +100,9 @@ JournalIdentity identity_of(const MeshArguments& args, const Input<D>& input,
                            {"max-vertices", std::to_string(options.max_vertices)}};
   identity.emplace_back("sizes",
                         args.sizes.empty() ? "none" : std::to_string(content_of(args.sizes)));
+  if constexpr (D == 3) {
+    identity.emplace_back("min-dihedral", script_number(options.min_dihedral));
+  }
   return identity;
 }
 

@@ -292,6 +292,10 @@ def refused():
     lines = contents("journal_input.node").replace(b"0.", b"0.0", 1)
     write("journal_other.node", lines)
     refuse(2, "belongs to another input", "edit", "journal_other.node", *base[2:], *with_journal)
+    write("in_space.node", b"2 3 0 0\n1 0 0 0\n2 1 1 1\n")
+    space = ["edit", "in_space.node", "--journal", "in_space.journal", "--min-dihedral"]
+    run(*space, "12", "-o", "in_space.vtu", check=0)
+    refuse(2, "min-dihedral was 12, here it is 10", *space, "10")
     write("other.txt", b"+point 7777 0.125 0.125\n")
     refuse(2, "does not begin with the 5 updates", *base, *with_journal, "--script", "other.txt")
     write("not.journal", b"+point 1 0 0\n")
