@@ -15,6 +15,8 @@ import subprocess
 import sys
 import time
 
+from files import contents, write
+
 FIRST_LINE = b"mesher journal 1\n"
 HEAD = 24
 
@@ -28,16 +30,6 @@ def run(*arguments, limit=None, check=None):
     if check is not None and done.returncode != check:
         raise AssertionError(f"{arguments}: exit {done.returncode}, expected {check}: {done.stderr}")
     return done.returncode, done.stderr
-
-
-def contents(path):
-    with open(path, "rb") as file:
-        return file.read()
-
-
-def write(path, content):
-    with open(path, "wb") as file:
-        file.write(content)
 
 
 def records(journal):

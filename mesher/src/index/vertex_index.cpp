@@ -391,21 +391,22 @@ CellLoan<D> VertexIndex<sac::Scope, D>::trial(sac::Scope& s, const Point<D>& p, 
   const Observation* last = observers_.find_at(*v, [&](const Observation& o) {
     return o.kind == kTrial && o.call == caller && static_cast<const CellSeen&>(o).radius == clip;
   });
-  CellLoan<D> cell = borrow_cell();
-  if (reads()) {
-    live_->read_as_if(*cell, *v, near->self, radius);
-  } else if (last != nullptr && observers_.knows_arrivals(*last)) {
-    const auto arrivals = [&](auto&& visit) { observers_.for_each_arrival(*last, visit); };
-    begin_repair(*cell, *v, radius, observers_.seen(*last), arrivals, seen);
-    finish_known(*cell, seen);
-  } else {
+  const auto look_there = [&]() -> CellLoan<D> {
+    if (last != nullptr && !reads()) return look(*v, radius, last, seen);
+    CellLoan<D> cell = borrow_cell();
+    if (reads()) {
+      live_->read_as_if(*cell, *v, near->self, radius);
+      return cell;
+    }
     cell->reset(*v, radius);
     const Observation* around = observers_.find_at(
         *near, [&](const Observation& o) { return o.kind == kCell && o.call == caller; });
     if (around != nullptr) add_neighbours(*cell, static_cast<const CellSeen&>(*around));
     cut_by_candidates(*cell, seen);
     finish(*cell, seen);
-  }
+    return cell;
+  };
+  CellLoan<D> cell = look_there();
   s.weigh(take_visited());
   cell->write(codes_);
   record_cell(s, *v, *cell, clip, kTrial);

@@ -8,6 +8,25 @@
 
 namespace mesher::detail {
 
+namespace {
+
+// Of the facets of the tetrahedron of 0, a, b and c, all outward or all inward, twice their areas
+// long.
+struct NormalsOfFacets {
+  std::array<Point<3>, 4> normal;
+  std::array<double, 4> length2;
+};
+
+NormalsOfFacets normals_of(const Point<3>& a, const Point<3>& b, const Point<3>& c) noexcept {
+  NormalsOfFacets all{{Point<3>{}, cross(b, c), cross(c, a), cross(a, b)}, {}};
+  auto& normal = all.normal;
+  normal[0] = scaled(-1, plus(normal[1], plus(normal[2], normal[3])));
+  for (std::size_t i = 0; i < 4; ++i) all.length2[i] = squared(normal[i]);
+  return all;
+}
+
+}  // namespace
+
 SliverRule::SliverRule(const MeshBox<3>& box, double min_dihedral)
     : box_(box),
       most_(min_dihedral <= 10   ? 12
@@ -19,10 +38,7 @@ SliverRule::SliverRule(const MeshBox<3>& box, double min_dihedral)
 
 bool SliverRule::is_surely_good(const Point<3>& a, const Point<3>& b,
                                 const Point<3>& c) const noexcept {
-  std::array<Point<3>, 4> normal{Point<3>{}, cross(b, c), cross(c, a), cross(a, b)};
-  normal[0] = scaled(-1, plus(normal[1], plus(normal[2], normal[3])));
-  std::array<double, 4> length2;
-  for (std::size_t i = 0; i < 4; ++i) length2[i] = squared(normal[i]);
+  const auto [normal, length2] = normals_of(a, b, c);
   const double most = worst_ * (1 - 0x1p-20);
   // Of shorter edges products lose digits.
   if (*std::min_element(length2.begin(), length2.end()) < 0x1p-400) return false;
@@ -48,10 +64,7 @@ double SliverRule::score(std::array<const Point<3>*, 4> corners) {
   // Products of eight lengths are in range then.
   for (Point<3>& edge : edges) edge = scaled(std::scalbn(1.0, -std::ilogb(longest)), edge);
   const auto& [a, b, c] = edges;
-  std::array<Point<3>, 4> normal{Point<3>{}, cross(b, c), cross(c, a), cross(a, b)};
-  normal[0] = scaled(-1, plus(normal[1], plus(normal[2], normal[3])));
-  std::array<double, 4> length2;
-  for (std::size_t i = 0; i < 4; ++i) length2[i] = squared(normal[i]);
+  const auto [normal, length2] = normals_of(a, b, c);
   double worst = -1;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t k = 0; k < i; ++k) {

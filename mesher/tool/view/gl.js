@@ -24,6 +24,16 @@ export function make_program(gl, vertex, fragment) {
   return at;
 }
 
+// How much of a line at the edge of a triangle a pixel has; `side` is 1 at one corner each, lines of
+// small triangles are faint.
+export const LINE = `
+float line_at(vec3 side, float from, float to, float least) {
+  vec3 steps = fwidth(side);
+  vec3 away = side / steps;
+  float line = 1. - smoothstep(from, to, min(away.x, min(away.y, away.z)));
+  return line * clamp(1. / max(steps.x, max(steps.y, steps.z)) / 8., least, 1.);
+}`;
+
 // `judged`: quality, size and region as bytes, and marks (bits: 1 poor, 2 forced or sliver).
 // `mode`: 0 region, 1 quality, 2 size.
 export const COLOUR = `

@@ -4,7 +4,7 @@
 // does not grow with the mesh; another place or scale shows the old picture, moved, and draws it anew
 // in cells, within a budget for each frame. The budget follows from how long frames take.
 
-import {COLOUR, make_program} from './gl.js';
+import {COLOUR, LINE, make_program} from './gl.js';
 import {Tiles} from './tiles.js';
 
 const kCell = 64;        // pixels
@@ -27,12 +27,9 @@ void main() {
   side = vec3(corner == 0, corner == 1, corner == 2);
 }`, `
 flat in vec3 base; in vec3 side; out vec4 pixel;
+${LINE}
 void main() {
-  vec3 steps = fwidth(side);
-  vec3 away = side / steps;
-  float line = 1. - smoothstep(.35, 1.05, min(away.x, min(away.y, away.z)));
-  float shown = clamp(1. / max(steps.x, max(steps.y, steps.z)) / 8., .10, 1.);
-  pixel = vec4(mix(base, vec3(.22, .27, .36), line * shown * .65), 1.);
+  pixel = vec4(mix(base, vec3(.22, .27, .36), line_at(side, .35, 1.05, .10) * .65), 1.);
 }`];
 
 const EDGES = [`

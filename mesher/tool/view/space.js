@@ -3,7 +3,7 @@
 // Which faces those are is found anew after every change: the cost is that of a visit of all
 // tetrahedra.
 
-import {COLOUR, make_program} from './gl.js';
+import {COLOUR, LINE, make_program} from './gl.js';
 import {FREE} from './mesh.js';
 
 const NONE = 0xffffffff;
@@ -26,12 +26,9 @@ void main() {
 }`, `
 uniform float opacity;
 flat in vec3 base; in vec3 side; out vec4 pixel;
+${LINE}
 void main() {
-  vec3 steps = fwidth(side);
-  vec3 away = side / steps;
-  float line = 1. - smoothstep(.3, 1., min(away.x, min(away.y, away.z)));
-  float shown = clamp(1. / max(steps.x, max(steps.y, steps.z)) / 8., .08, 1.);
-  pixel = vec4(mix(base, vec3(.18, .22, .30), line * shown * .7), 1.) * opacity;
+  pixel = vec4(mix(base, vec3(.18, .22, .30), line_at(side, .3, 1., .08) * .7), 1.) * opacity;
 }`];
 
 const LINES = [`
