@@ -30,6 +30,7 @@ struct CheckArguments {
   bool constrained = false;
   bool ties = false, near = false;
   bool surface = false, merge = false, no_merge = false;
+  bool repair = false;
 };
 
 /// What was looked at, and what was found.
@@ -74,13 +75,26 @@ std::string counts_of(const mesher::MeshData<D>& mesh) {
                       {args.mesh});
 }
 
+mesher::CoincidingPoints coinciding(const CheckArguments& args) {
+  return args.repair ? mesher::CoincidingPoints::kept : mesher::CoincidingPoints::refused;
+}
+
+/// As 'mesh' would mesh it.
+template <int D>
+Input<D> as_meshed(Input<D> input, const CheckArguments& args) {
+  if (args.repair) locating(input, [&] { input.repair({}); });
+  return input;
+}
+
 Judged judge(const CheckArguments& args, mesher::MeshData<2>& mesh) {
   if (args.ties) refuse(args, "--ties", "tetrahedra");
   if (!args.max_volume.empty()) refuse(args, "--max-volume", "tetrahedra");
   if (args.near) refuse(args, "--near", "tetrahedra");
   if (args.surface || args.merge) refuse(args, args.merge ? "--merge" : "--surface", "tetrahedra");
   mesher::GraphFile<2> graph;
-  if (!args.input.empty()) graph = mesher::read<2>(args.input);
+  if (!args.input.empty()) {
+    graph = as_meshed(Input<2>(args.input, Faces::unless_points, coinciding(args)), args).file();
+  }
   forget_counted_values(args.mesh, mesh, graph);
   mesher::CheckOptions<2> options;
   options.features = &mesh.features;
@@ -106,17 +120,21 @@ void merge_unless_named(mesher::GraphFile<3>& file, const mesher::MeshData<3>& m
   if (fits) file = std::move(merged);
 }
 
+// With a repair no mesh names polygons as they were before it: they are merged as by 'mesh'.
+Faces faces_of(const CheckArguments& args) {
+  if (args.merge || (args.surface && args.repair && !args.no_merge)) return Faces::merged;
+  return args.surface ? Faces::polygons : Faces::unless_points;
+}
+
 Judged judge(const CheckArguments& args, mesher::MeshData<3>& mesh) {
   if (args.constrained) refuse(args, "--constrained", "triangles");
   if (!args.max_area.empty()) refuse(args, "--max-area", "triangles");
   std::optional<Input<3>> input;
   mesher::GraphFile<3> complex;
   if (!args.input.empty()) {
-    input.emplace(args.input, args.merge     ? Faces::merged
-                              : args.surface ? Faces::polygons
-                                             : Faces::unless_points);
+    input.emplace(as_meshed(Input<3>(args.input, faces_of(args), coinciding(args)), args));
     complex = input->file();
-    if (args.surface && !args.merge && !args.no_merge && !is_complex(args.input)) {
+    if (faces_of(args) == Faces::polygons && !args.no_merge && !is_complex(args.input)) {
       merge_unless_named(complex, mesh);
     }
     forget_counted_values(args.mesh, mesh, complex);
@@ -185,6 +203,10 @@ void add_check(CLI::App& app) {
                  "polygons that the mesh names")
       ->needs(check->get_option("--surface"))
       ->excludes(check->get_option("--merge"));
+  check
+      ->add_flag("--repair", args->repair,
+                 "Repair --input as 'mesh --repair' does (without --domain), before the checks")
+      ->needs(check->get_option("--input"));
   check->add_option("--rho", args->rho, "Bound of circumradius over shortest edge");
   check->add_option("--max-area", args->max_area, "Bound of the area of triangles");
   check->add_option("--max-volume", args->max_volume, "Bound of the volume of tetrahedra");

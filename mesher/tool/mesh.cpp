@@ -50,7 +50,8 @@ mesher::Mesh<D> box_mesh(const MeshArguments& args, const Input<D>& input,
     const std::string tried(name_of(report.tried));
     const mesher::Error error = input.located(*report.gave_up);
     if (!args.quiet)
-      std::fprintf(stderr, "%s: %s; now by gap-balls\n", tried.c_str(), error.what());
+      std::fprintf(stderr, "%s: %s; now by %s\n", tried.c_str(), error.what(),
+                   std::string(name_of(report.algorithm)).c_str());
   }
   run.algorithm = name_of(report.algorithm);
   run.stats = report.stats;

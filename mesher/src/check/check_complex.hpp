@@ -73,6 +73,7 @@ class ComplexCheck {
   [[nodiscard]] bool is_above(const FlatPolygon& f, const Face& face, std::uint32_t t) const;
   [[nodiscard]] std::optional<std::string> trouble_of(const Surface& surface);
   [[nodiscard]] double outline_of(const Surface& surface) const;
+  [[nodiscard]] double flatness(const Surface& surface, const FlatPolygon& f) const;
   [[nodiscard]] bool is_open(const Ends& edge, const Point<3>& towards);
   [[nodiscard]] bool is_outside(const Point<3>& p) const;
   void name_vertices();

@@ -35,6 +35,16 @@ FlatPolygon flat(const mesher::Polygon& polygon, const std::map<PointId, Point<3
 
 }  // namespace
 
+// How far vertices on a polygon may be off its plane: twice as far as what it names, since new ones
+// are in planes of vertices that are off it, too.
+double ComplexCheck::flatness(const Surface& surface, const FlatPolygon& f) const {
+  double most = 0;
+  for (const PointId id : surface.points) {
+    most = std::max(most, static_cast<double>(std::abs(f.height(places_.at(id)))));
+  }
+  return 2 * most + 4 * rounding_;
+}
+
 void ComplexCheck::add_edges(Surface& surface, const std::vector<PointId>& ends,
                              std::set<Ends>& edges) {
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
@@ -116,7 +126,7 @@ void ComplexCheck::add_tiles_beside_flat() {
   VerticesOn on(mesh_.mesh());
   for (Surface& surface : surfaces_) {
     const FlatPolygon f = flat(*surface.polygon, places_);
-    const double tolerance = static_cast<double>(f.deviation()) + 4 * rounding_;
+    const double tolerance = flatness(surface, f);
     on.look_at(f, box_of(*surface.polygon, places_, tolerance), tolerance, surface.on);
     const auto is_flat = [&](std::uint32_t t) {
       const auto& corners = mesh_.mesh().simplices[t];
@@ -278,7 +288,7 @@ bool ComplexCheck::is_open(const Ends& edge, const Point<3>& towards) {
 // there is nothing at all.
 std::optional<std::string> ComplexCheck::trouble_of(const Surface& surface) {
   const FlatPolygon f = flat(*surface.polygon, places_);
-  const double tolerance = static_cast<double>(f.deviation()) + 4 * rounding_;
+  const double tolerance = flatness(surface, f);
   long double area = 0;
   std::map<Ends, std::vector<std::uint32_t>> opposite;  // corners of tiles, by their edges
   for (const auto& [a, b, c] : surface.tiles) {

@@ -49,10 +49,7 @@ FlatPolygon::FlatPolygon(const std::vector<std::vector<Point<3>>>& loops)
   ev_ = cross(normal_, eu_);
   for (const auto& loop : loops) {
     auto& flat = loops_.emplace_back();
-    for (const Point<3>& p : loop) {
-      flat.push_back(in_frame(wide(p)));
-      deviation_ = std::max(deviation_, std::abs(height(p)));
-    }
+    for (const Point<3>& p : loop) flat.push_back(in_frame(wide(p)));
   }
 }
 

@@ -29,8 +29,6 @@ class FlatPolygon {
   /// A place as far from the middle of ab as these are from each other, on the left of ab as seen
   /// from above, in the plane.
   [[nodiscard]] Place beside(const Point<3>& a, const Point<3>& b) const;
-  /// How far a corner is off the plane.
-  [[nodiscard]] Real deviation() const noexcept { return deviation_; }
   /// Some place well inside.
   [[nodiscard]] Point<3> inner_place() const;
 
@@ -43,7 +41,6 @@ class FlatPolygon {
 
   Place origin_, normal_, eu_, ev_;
   std::vector<std::vector<Flat>> loops_;
-  Real deviation_ = 0;
 };
 
 }  // namespace mesher::detail

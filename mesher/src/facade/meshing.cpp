@@ -84,25 +84,38 @@ std::size_t most_after(const Graph<D>& graph, const Options<D>& options) {
   return options.max_vertices == 0 ? most : std::min(most, options.max_vertices);
 }
 
+// What is tried in turn: where svr finds features too close, at tiny angles of some, refine may not,
+// since it knows all points from the start.
+template <int D>
+std::vector<Algorithm> choices(const Graph<D>& graph, const Options<D>& options) {
+  std::vector<Algorithm> all{fastest(graph, options)};
+  if (D == 3 && has_features(graph) && all[0] == Algorithm::svr) all.push_back(Algorithm::refine);
+  // It does not know limits of growth.
+  if (options.growth == 0 && all[0] != Algorithm::gap_balls) all.push_back(Algorithm::gap_balls);
+  return all;
+}
+
 template <int D>
 Mesh<D> run_fastest(const Graph<D>& graph, const Options<D>& options, RunReport& report,
                     const RunControl& control, bool refinement) {
-  const Algorithm algorithm = fastest(graph, options);
-  if (algorithm == Algorithm::gap_balls) {
-    return run(algorithm, graph, options, report, control, refinement);
+  const std::vector<Algorithm> all = choices(graph, options);
+  for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+    try {
+      return run(all[i], graph, options, report, control, refinement);
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::too_close && error.code() != ErrorCode::too_many) throw;
+      if (i > 0) continue;
+      report.tried = all[i];
+      report.gave_up = error;
+    }
   }
-  try {
-    return run(algorithm, graph, options, report, control, refinement);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::too_close && error.code() != ErrorCode::too_many) throw;
-    if (options.growth != 0) throw;  // gap-balls does not know it
-    report.tried = algorithm;
-    report.gave_up = error;
-  }
+  const Algorithm last = all.back();
   Options<D> bounded = options;
-  bounded.max_vertices = most_after(graph, options);
+  if (report.gave_up && last == Algorithm::gap_balls) {
+    bounded.max_vertices = most_after(graph, options);
+  }
   try {
-    return run(Algorithm::gap_balls, graph, bounded, report, control, refinement);
+    return run(last, graph, bounded, report, control, refinement);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::too_many) throw;
     if (bounded.max_vertices == options.max_vertices) throw;

@@ -58,8 +58,8 @@ class Conformity : public LineConformity<3, Conformity> {
 
   /// Nothing: all conforms. Throws: Error (too_close: a piece is too short to be split).
   [[nodiscard]] std::optional<Wanted> next();
-  /// Whether next() may find something after a look at all of the polygons that are not covered, of
-  /// which it looks at what has changed. Requires: it has returned nothing.
+  /// Whether next() may find something after a look at all tiles; it looks at what has changed.
+  /// Requires: it has returned nothing. Cost: O(n log n) for n tiles.
   [[nodiscard]] bool looks_again();
   /// Throws: Error (too_close: another vertex is there).
   [[noreturn]] void fail_occupied(const Placed& place) const { throw too_close_near(place.p); }
@@ -162,7 +162,7 @@ class Conformity : public LineConformity<3, Conformity> {
     Point<3> at;
   };
   void note_loose(Rank f);
-  [[nodiscard]] bool is_covered(Rank f) const;
+  [[nodiscard]] bool is_covered_again(Rank f) const;
   [[nodiscard]] bool is_towards(const Side& side, std::uint32_t v) const;
   void find_open_sides(Rank f);
   void find_new_open_sides(Rank f);
@@ -197,14 +197,15 @@ class Conformity : public LineConformity<3, Conformity> {
   Tiles tiles_;
   std::vector<std::uint32_t> wanted_tiles_;
   std::vector<bool> is_turned_;         // by polygon: its upper side is not the normal's
-  std::vector<double> area_, covered_;  // of polygons; what tiles have of it
+  std::vector<double> lost_, gained_;   // by polygon: the area of tiles since the last look
   std::vector<Rank> loose_;             // polygons that have lost tiles
   std::vector<bool> is_loose_;          // by polygon
   std::vector<Side> open_;              // sides of edges where tiles were missing
   // By polygon: edges of tiles that came or went, and pieces that were split, since its open sides
   // were found.
   std::vector<std::vector<std::array<std::uint32_t, 2>>> suspects_;
-  std::vector<bool> has_looked_;           // by polygon: at all of it, when tiles were missing
+  std::vector<bool> has_looked_;           // by polygon: at all of it, at first
+  std::vector<bool> has_gap_;              // by polygon: one was found at the last look
   std::size_t looked_again_ = 0;           // with so many vertices
   bool has_polygons_ = false;              // their tiles are known
   std::vector<std::uint32_t> dug_pieces_;  // scratch

@@ -18,7 +18,8 @@ namespace mesher::detail {
 
 namespace {
 
-// Of the area of a polygon that tiles cover: that of what is not covered is less, but for rounding.
+// Of the area of tiles that a polygon has lost: rounding makes no such difference to that of those
+// that came.
 constexpr double kUncovered = 0x1p-36;
 
 }  // namespace
@@ -31,8 +32,11 @@ void Conformity::note_loose(Rank f) {
   loose_.push_back(f);
 }
 
-bool Conformity::is_covered(Rank f) const {
-  return std::abs(covered_[f] - area_[f]) <= kUncovered * area_[f];
+/// Whether tiles have come where some were lost since the last look. (Compared with the area of all
+/// of the polygon, that of small ones would be rounding.)
+bool Conformity::is_covered_again(Rank f) const {
+  return has_looked_[f] && !has_gap_[f] &&
+         std::abs(gained_[f] - lost_[f]) <= kUncovered * lost_[f];
 }
 
 /// Requires: v is on the polygon, or beside it.
@@ -143,15 +147,15 @@ bool Conformity::looks_again() {
   if (!has_polygons_ || std::exchange(looked_again_, kernel_.places()) == kernel_.places()) {
     return false;
   }
-  for (Rank f = 1; f < by_rank_.size(); ++f) {
-    if (!is_covered(f)) find_open_sides(f);
-  }
+  for (Rank f = 1; f < by_rank_.size(); ++f) find_open_sides(f);
   return !open_.empty();
 }
 
-/// Nothing: there is a tile, or no such edge any more. Cost: O(star of a).
+/// Nothing: there is a tile, or no such edge any more, or nothing pierces the polygon beside it: then
+/// it is suspect again. Cost: O(star of a).
 auto Conformity::gap_at(const Side& side) -> std::optional<Gap> {
   const Rank rank = side.polygon;
+  bool is_edge = false;
   const Polygon& f = polygon(rank);
   const auto height = [&](std::uint32_t w) {
     return is_on(w, rank) ? 0.0 : f.plane.height(place(w));
@@ -163,6 +167,7 @@ auto Conformity::gap_at(const Side& side) -> std::optional<Gap> {
     const auto& corners = kernel_.simplices().corners(s);
     const std::size_t at_b = corner_of(corners, side.b);
     if (at_b == corners.size() || kernel_.is_ghost(s)) continue;
+    is_edge = true;
     std::array<std::uint32_t, 2> across{};
     std::size_t found = 0;
     for (const std::uint32_t w : corners) {
@@ -184,6 +189,10 @@ auto Conformity::gap_at(const Side& side) -> std::optional<Gap> {
     gap = Gap{rank, s, u, v, x};
     away = to_x;
   }
+  if (is_edge) {
+    has_gap_[rank] = true;
+    if (!gap) suspect(rank, side.a, side.b);
+  }
   return gap;
 }
 
@@ -199,7 +208,7 @@ auto Conformity::next_gap() -> std::optional<Gap> {
     const Rank f = loose_.back();
     loose_.pop_back();
     is_loose_[f] = false;
-    if (is_covered(f)) {
+    if (is_covered_again(f)) {
       suspects_[f].clear();
     } else if (has_looked_[f]) {
       find_new_open_sides(f);
@@ -207,6 +216,8 @@ auto Conformity::next_gap() -> std::optional<Gap> {
       has_looked_[f] = true;
       find_open_sides(f);
     }
+    lost_[f] = gained_[f] = 0;
+    has_gap_[f] = false;
   }
 }
 

@@ -13,20 +13,13 @@ void Conformity::start_polygons() {
   has_polygons_ = true;
   const auto last = static_cast<Rank>(by_rank_.size() - 1);
   tiles_.make_room(last);
-  area_.assign(by_rank_.size(), 0);
-  covered_.assign(by_rank_.size(), 0);
+  lost_.assign(by_rank_.size(), 0);
+  gained_.assign(by_rank_.size(), 0);
   is_loose_.assign(by_rank_.size(), false);
   suspects_.resize(by_rank_.size());
   has_looked_.assign(by_rank_.size(), false);
+  has_gap_.assign(by_rank_.size(), false);
   is_turned_.assign(by_rank_.size(), false);
-  for (Rank f = 1; f <= last; ++f) {
-    const Polygon& g = polygon(f);
-    for (std::uint32_t i = 0; i < g.outline.size(); ++i) {
-      const Point<2>&a = g.outline[i], &b = g.outline[g.next(i)];
-      const double twice = a[0] * b[1] - a[1] * b[0];
-      area_[f] += (g.inside_left[g.loop_of(i)] ? twice : -twice) / 2;
-    }
-  }
   look_at_all();
   for (Rank f = last; f > 0; --f) note_loose(f);
 }
@@ -63,7 +56,7 @@ void Conformity::look_at_facet(std::uint32_t s, std::uint32_t i) {
     if (is) {
       tiles_.add(face, f);
       suspect(f, face);
-      covered_[f] += area_of(face);
+      gained_[f] += area_of(face);
     } else {
       erase(known);
     }
@@ -136,7 +129,7 @@ void Conformity::want_tile(std::uint32_t tile, const Point<3>& from) {
 
 void Conformity::erase(std::uint32_t tile) {
   const Tiles::Tile& gone = tiles_[tile];
-  covered_[gone.polygon] -= area_of(gone.face);
+  lost_[gone.polygon] += area_of(gone.face);
   suspect(gone.polygon, gone.face);
   note_loose(gone.polygon);
   tiles_.erase(tile);

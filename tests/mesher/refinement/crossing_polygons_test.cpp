@@ -2,6 +2,7 @@
 // whatever angle comes, and edges with vertices on their balls.
 #include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <optional>
 #include <random>
 #include <vector>
@@ -67,6 +68,29 @@ Graph<3> repaired(const std::vector<Triangle>& triangles, double unit) {
   return mesher::repair(support::plc_of(all)).file.graph;
 }
 
+// A triangle, and a fan whose apex is on the other side of it, as little as `depth` away.
+Graph<3> poked(std::mt19937_64& random, double depth) {
+  const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  support::Complex all;
+  all.points = {{0, 0, 0.02 * unit()}, {1, 0.1 * unit(), 0.02 * unit()}, {0.3, 1, 0.02 * unit()}};
+  all.faces.push_back({{{0, 1, 2}}, {}});
+  const double u = 0.3 + 0.1 * unit(), v = 0.3 + 0.1 * unit();
+  mesher::Point<3> apex;
+  for (std::size_t i = 0; i < 3; ++i) {
+    apex[i] = u * all.points[0][i] + v * all.points[1][i] + (1 - u - v) * all.points[2][i];
+  }
+  apex[2] -= depth;
+  all.points.push_back(apex);
+  const std::size_t n = 4 + random() % 3;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double angle = 2 * M_PI * (static_cast<double>(k) + 0.8 * unit()) / static_cast<double>(n);
+    all.points.push_back({apex[0] + 0.2 * std::cos(angle), apex[1] + 0.2 * std::sin(angle),
+                          apex[2] + 0.03 * unit() - 0.005});
+    all.faces.push_back({{{3, 4 + k, 4 + (k + 1) % n}}, {}});
+  }
+  return mesher::repair(support::plc_of(all)).file.graph;
+}
+
 // Without quality: check excuses fewer of those that small angles leave.
 template <By B>
 void require_meshed(const Graph<3>& plc) {
@@ -93,6 +117,27 @@ TEMPLATE_TEST_CASE_SIG("three polygons that cross in one point are in the mesh",
     }
   }
   CHECK(refused <= 1);
+}
+
+// Repairs make needles there, whose faces are far below the rounding of their polygon's area.
+TEMPLATE_TEST_CASE_SIG("a vertex that pokes through a polygon by little is in the mesh", "",
+                       ((By B), B), By::svr, By::refine) {
+  int refused = 0;
+  for (const double depth : {1e-2, 1e-4, 1e-6}) {
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+      INFO("depth " << depth << ", seed " << seed);
+      std::mt19937_64 random(seed);
+      const Graph<3> plc = poked(random, depth);
+      try {
+        const auto mesh = support::mesh_of<B>(plc, support::options_for(plc));
+        CHECK(support::fault(mesh, plc, mesher::Extent::box, 2.0) == "");
+      } catch (const mesher::Error& e) {
+        CHECK(e.code() == mesher::ErrorCode::too_close);
+        ++refused;
+      }
+    }
+  }
+  CHECK(refused <= 1);  // 6 when the area of all of a polygon said whether it is covered
 }
 
 // On the ball of an edge there comes a vertex that is not in it, and ties are decided against it.
