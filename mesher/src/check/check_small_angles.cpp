@@ -73,7 +73,7 @@ bool ComplexCheck::share_shell(std::uint32_t a, std::uint32_t b) const {
       const Point<3>& o = places_.at(point);
       const double x = std::sqrt(squared_distance(at(a), o)),
                    y = std::sqrt(squared_distance(at(b), o));
-      if (std::abs(x - y) <= kEqualDistances * (x + y) && has(point)) return true;
+      if (std::abs(x - y) <= kEqualDistances * (x + y) + 4 * rounding_ && has(point)) return true;
     }
   }
   return false;

@@ -92,7 +92,7 @@ bool visit_edges_near(const Polygon& f, const Point<3>& x, double distance, Visi
 /// The same with the points on f.
 template <class Visit>
 bool visit_points_near(const Polygon& f, const Point<3>& x, double distance, Visit&& visit);
-/// The same with the points on f that are at this distance from x, but for 2^-39 of it.
+/// The same with the points on f that are at this distance from x, but for rounding.
 template <class Visit>
 bool visit_points_at(const Polygon& f, const Point<3>& x, double distance, Visit&& visit);
 
@@ -152,7 +152,7 @@ bool visit_points_near(const Polygon& f, const Point<3>& x, double distance, Vis
 template <class Visit>
 bool visit_points_at(const Polygon& f, const Point<3>& x, double distance, Visit&& visit) {
   EdgeTree::Place place = place_beside(f, x);
-  place.slack += distance * 0x1p-39;
+  place.slack += distance * 0x1p-39 + 2 * resolution(x, 0);
   return f.outline_tree.visit_at(place, distance, polygon_shape::corners(f, visit)) ||
          f.inner_tree.visit_at(place, distance, polygon_shape::inner_points(f, visit));
 }

@@ -82,7 +82,8 @@ double SmallAngles::shell(const Standing& v, VertexHandle point) const {
     return e.has_end(point) ? label.from(e.b == point, e.length) : 0;
   }
   const double away = std::sqrt(squared_distance(v.v.p, store_.points()[point].p));
-  return std::abs(away - label.distance()) <= away * 0x1p-40 ? label.distance() : 0;
+  const double rounding = away * 0x1p-40 + resolution(v.v.p, 0);
+  return std::abs(away - label.distance()) <= rounding ? label.distance() : 0;
 }
 
 // Of v from h; as labels say where they do, so that a copy of a copy is as far, bit for bit.
