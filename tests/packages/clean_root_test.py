@@ -23,7 +23,6 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 NAMES = ("liblivemesh1", "libmesher-dev", "mesher", "python3-livemesh")
 BUILD = ["g++", "cmake", "make"]
-PIP = ["zlib1g-dev", "nlohmann-json3-dev", "robin-map-dev", "python3-venv"]
 KEPT = ("proc", "sys", "dev", "tmp", "run", "var/cache", "var/log", "var/lib/apt", "var/lib/dpkg",
         "etc/ld.so.cache", "root")
 USED = {}
@@ -35,10 +34,10 @@ class Chroot:
 
     def run(self, *command, cwd="/", offline=False):
         """What a command prints; it must succeed."""
-        shell = f"cd {cwd} && exec \"$@\""
-        wrapped = ["chroot", str(self.folder), "/bin/sh", "-c", shell, "sh", *command]
-        if offline:
-            wrapped = ["unshare", "--net", *wrapped]
+        # /proc goes with the command.
+        mount = 'mount -t proc proc "$0/proc" && exec chroot "$0" "$@"'
+        wrapped = ["unshare", "--mount", *(["--net"] if offline else []), "sh", "-c", mount,
+                   str(self.folder), "/bin/sh", "-c", f"cd {cwd} && exec \"$@\"", "sh", *command]
         process = subprocess.run(wrapped, capture_output=True, text=True, stdin=subprocess.DEVNULL,
                                  env={"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "LC_ALL": "C.UTF-8",
                                       "HOME": "/root", "DEBIAN_FRONTEND": "noninteractive"})
@@ -169,7 +168,9 @@ def sources(root):
 
 def pip(root):
     """As the README of livemesh says; then the wheel, where no compiler is."""
-    root.apt("install", *BUILD, *PIP, "python3-numpy")
+    listed = re.search(r"`apt install ([^`]*)`", (ROOT / "mesher/python/README.md").read_text())
+    needed = listed[1].split()
+    root.apt("install", "make", *needed)  # make or ninja
     sources(root)
     root.run("python3", "-m", "venv", "--system-site-packages", "/venv")
     before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
@@ -184,7 +185,7 @@ def pip(root):
     root.copy(library, "/work/liblivemesh.so")
     root.run("sh", "-c", "cd /source && LIVEMESH_LIBRARY=/work/liblivemesh.so /venv/bin/pip wheel "
              "--no-deps -w /work ./mesher/python", offline=True)
-    root.apt("purge", *BUILD, *PIP[:3], "cpp", "gcc", "binutils")
+    root.apt("purge", *BUILD, *needed, "cpp", "gcc", "binutils")
     root.apt("autoremove", "--purge")
     root.apt("install", "python3-venv", "python3-numpy")
     check(not any(root.has(p) for p in ("cc", "c++", "gcc", "g++", "cmake")), "a compiler is left")
