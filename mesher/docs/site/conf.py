@@ -25,5 +25,6 @@ autodoc_typehints = "signature"
 html_static_path = ["site.css"]
 html_css_files = ["site.css"]
 pygments_style = "friendly"
+highlight_language = "none"
 # Parts of programs in the comments of headers, with dots for what is left out.
 suppress_warnings = ["misc.highlighting_failure"]
