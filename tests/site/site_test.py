@@ -59,9 +59,10 @@ def main(build, output):
         return 77
     made = subprocess.run(["/usr/bin/python3", "-B", str(ROOT / "mesher/docs/site/build.py"), build,
                            output], capture_output=True, text=True, check=False)
-    faults = []
     if made.returncode != 0 or "WARNING" in made.stderr:
-        faults.append(made.stdout + made.stderr)
+        print(made.stdout + made.stderr)
+        return 1
+    faults = []
     site = pathlib.Path(output).resolve() / "html"
     faults += [f"no page {page}" for page in PAGES if not (site / f"{page}.html").exists()]
     faults += [f"{page} does not have {text}" for page, text in TEXTS.items()
