@@ -6,11 +6,15 @@ and completes there; the pages have every option of the help.
 """
 import os
 import pathlib
+import pty
 import re
+import select
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 TOOLS = {}
@@ -116,19 +120,41 @@ class Fish(unittest.TestCase):
             self.assertEqual(self.complete("mesher mesh x -o la", cwd=folder), ["lake.poly"])
 
 
-# A shell on a terminal of its own, for zsh completes nowhere else. It answers what a line becomes
-# when Tab is pressed, and `list-choices` tells all that there is.
-ZSH = r"""
-zmodload zsh/zpty
-zpty worker zsh -f -i
-say() { zpty -w worker "$1"; }
-say "PS1=; PROMPT_EOL_MARK=; fpath=($1 \$fpath); autoload -U compinit; compinit -u -D"
-say "zstyle ':completion:*' list-prompt ''; zstyle ':completion:*' menu false; LISTMAX=10000"
-say 'shown() { print -r -- "<${BUFFER}>"; zle kill-whole-line }; zle -N shown; bindkey "^X" shown'
-zpty -n -w worker "$2"$'\t'$'\x18'
-zpty -n -w worker $'\n'"exit"$'\n'
-while zpty -r worker line; do print -r -- "$line"; done
+# A shell on a terminal of its own, for zsh completes nowhere else. It says when it takes keys, and
+# what the line is when control-X is pressed.
+ZSH = r"""PS1=; PROMPT_EOL_MARK=; fpath=({folder} $fpath); autoload -U compinit; compinit -u -D
+takes_keys() {{ print -r -- "<""keys>" }}; zle -N zle-line-init takes_keys
+shown() {{ print -r -- "<${{BUFFER}}>" }}; zle -N shown; bindkey "^X" shown
 """
+
+
+class Terminal:
+    def __init__(self, folder):
+        self.process, self.terminal = pty.fork()
+        if self.process == 0:
+            os.chdir(folder)
+            os.execvpe("zsh", ["zsh", "-f", "-i"], {**os.environ, "HOME": str(folder), "TERM": "dumb",
+                                                    "COLUMNS": "200"})
+        self.seen = ""
+
+    def close(self):
+        os.kill(self.process, signal.SIGKILL)
+        os.waitpid(self.process, 0)
+        os.close(self.terminal)
+
+    def send(self, keys):
+        os.write(self.terminal, keys.encode())
+
+    def wait(self, pattern, seconds):
+        """What matches the pattern in the output, or None if it does not come."""
+        until = time.monotonic() + seconds
+        while not (found := re.search(pattern, self.seen)):
+            left = until - time.monotonic()
+            if left <= 0 or not select.select([self.terminal], [], [], left)[0]:
+                return None
+            self.seen += os.read(self.terminal, 65536).decode(errors="replace")
+        self.seen = self.seen[found.end():]
+        return found
 
 
 @unittest.skipUnless(shutil.which("zsh"), "zsh is not there")
@@ -142,13 +168,20 @@ class Zsh(unittest.TestCase):
 
     def becomes(self, line):
         """The line after Tab."""
-        process = subprocess.run(["zsh", "-f", "-c", ZSH, "zsh", str(self.folder), line],
-                                 capture_output=True, text=True, timeout=60, cwd=self.folder,
-                                 stdin=subprocess.DEVNULL,
-                                 env={**os.environ, "HOME": str(self.folder), "TERM": "dumb"})
-        found = re.findall(r"<((?:mesher|traces) [^<>]*)>", process.stdout)
-        self.assertTrue(found, process.stdout + process.stderr)
-        return found[-1].rstrip()
+        terminal = Terminal(self.folder)
+        try:
+            terminal.send(ZSH.format(folder=self.folder) + "print re''ady\n")
+            self.assertTrue(terminal.wait(r"ready\r?\n", 60), "zsh is not ready")
+            self.assertTrue(terminal.wait("<keys>", 60), "zsh takes no keys")
+            terminal.send(line + "\t")
+            for _ in range(30):  # a key that is pressed while zsh completes may be lost
+                terminal.send("\x18")
+                found = terminal.wait("<((?:mesher|traces) [^<>]*)>", 2)
+                if found and found[1].rstrip() != line:
+                    return found[1].rstrip()
+            return line
+        finally:
+            terminal.close()
 
     def test_parses(self):
         for name in TOOLS:
