@@ -73,6 +73,7 @@ class Bash(unittest.TestCase):
         self.assertEqual(self.complete("mesh", "--rule", "=", "v"), ["voronoi-aspect"])
         self.assertEqual(self.complete("mesh", "--rule", "="), ["radius-edge", "voronoi-aspect"])
         self.assertIn("uniform", self.complete("gen", "u"))
+        self.assertIn("edit-distance-in-a-band", self.complete("example", "e", tool="traces"))
         self.assertEqual(self.complete("mesh", "--rho", ""), [])
         self.assertEqual(self.complete("completion", "f"), ["fish"])
 

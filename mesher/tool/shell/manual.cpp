@@ -45,7 +45,9 @@ std::string tag_of(const OptionWords& option) {
 
 void write_option(std::ostream& out, const OptionWords& option) {
   out << ".TP\n" << tag_of(option) << "\n" << safe(option.about);
-  if (!option.values.empty() && !option.positional) {
+  const bool told =
+      !option.values.empty() && option.about.find(option.values[0]) != std::string::npos;
+  if (!option.values.empty() && !(option.positional && told)) {
     out << " (";
     for (std::size_t i = 0; i < option.values.size(); ++i) {
       out << (i == 0 ? "" : ", ") << bold(option.values[i]);
