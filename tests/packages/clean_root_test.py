@@ -91,10 +91,10 @@ def block(document, language):
 
 def use_tools(root):
     root.run("mesher", "mesh", "lake.poly", "--min-angle", "28", "-o", "lake.vtu", "-o", "lake.svg",
-             cwd="/work")
-    root.run("mesher", "check", "lake.vtu", "--input", "lake.poly", "--rho", "1.066", cwd="/work")
-    root.run("traces", "example", "quicksort", "--n", "100", "-o", "q.trace", cwd="/work")
-    root.run("traces", "audit", "q.trace", cwd="/work")
+             cwd="/trial")
+    root.run("mesher", "check", "lake.vtu", "--input", "lake.poly", "--rho", "1.066", cwd="/trial")
+    root.run("traces", "example", "quicksort", "--n", "100", "-o", "q.trace", cwd="/trial")
+    root.run("traces", "audit", "q.trace", cwd="/trial")
     for page in ("mesher", "traces"):
         check((root.folder / f"usr/share/man/man1/{page}.1.gz").exists(), f"no page of {page}")
     completed = root.run("bash", "-c", "source /usr/share/bash-completion/completions/mesher; "
@@ -104,25 +104,25 @@ def use_tools(root):
 
 
 def use_python(root, python="python3"):
-    (root.folder / "work/first.py").write_text(block("README.md", "python"))
-    root.run(python, "first.py", cwd="/work")
+    (root.folder / "trial/first.py").write_text(block("README.md", "python"))
+    root.run(python, "first.py", cwd="/trial")
     where = root.run(python, "-c", "import livemesh; print(livemesh.__file__, livemesh.__version__)")
-    root.run("mesher" if root.has("mesher") else "true", "check", "/work/lake.vtu", "--input",
-             "/work/lake.poly", "--rho", "1.066")
+    if root.has("mesher"):
+        root.run("mesher", "check", "lake.vtu", "--input", "lake.poly", "--rho", "1.066", cwd="/trial")
     return where
 
 
 def use_libraries(root):
     for file in (ROOT / "tests/consumer").iterdir():
-        root.copy(file, f"/work/consumer/{file.name}")
+        root.copy(file, f"/trial/consumer/{file.name}")
     root.run("cmake", "-S", "consumer", "-B", "consumer/build", "-DCMAKE_BUILD_TYPE=Release",
-             cwd="/work")
-    root.run("cmake", "--build", "consumer/build", cwd="/work")
+             cwd="/trial")
+    root.run("cmake", "--build", "consumer/build", cwd="/trial")
     for program in ("use_sac", "use_mesher"):
-        root.run(f"consumer/build/{program}", cwd="/work")
-    (root.folder / "work/program.c").write_text(block("mesher/c/README.md", "c"))
-    root.run("gcc", "-std=c99", "program.c", "-o", "program", "-llivemesh", cwd="/work")
-    said = root.run("./program", cwd="/work")
+        root.run(f"consumer/build/{program}", cwd="/trial")
+    (root.folder / "trial/program.c").write_text(block("mesher/c/README.md", "c"))
+    root.run("gcc", "-std=c99", "program.c", "-o", "program", "-llivemesh", cwd="/trial")
+    said = root.run("./program", cwd="/trial")
     check(re.fullmatch(r"\d+ triangles\n", said), f"the C program says {said!r}")
 
 
@@ -149,11 +149,11 @@ def install_and_use(root, packages):
     use_libraries(root)
     root.apt("purge", *NAMES)
     after = root.files()
-    work = {path for path in after if path.split("/")[0] in ("work", "debs")}
+    ours = {path for path in after if path.split("/")[0] in ("trial", "debs")}
     changed = {path for path in before.keys() | after.keys()
-               if before.get(path) != after.get(path)} - work
+               if before.get(path) != after.get(path)} - ours
     check(not changed, f"removed, but not as before: {sorted(changed)[:20]}")
-    left = [path for path in after.keys() - work if re.search("livemesh|mesher", path)]
+    left = [path for path in after.keys() - ours if re.search("livemesh|mesher", path)]
     check(not left, f"left: {left}")
     print(f"all four, with a compiler: used and removed; {len(after)} paths as before")
 
@@ -182,16 +182,16 @@ def pip(root):
           f"{time.monotonic() - start:.0f} s", flush=True)
     check(seconds < 600, "above ten minutes of processor")
     library = next((root.folder / "venv").rglob("liblivemesh.so"))
-    root.copy(library, "/work/liblivemesh.so")
-    root.run("sh", "-c", "cd /source && LIVEMESH_LIBRARY=/work/liblivemesh.so /venv/bin/pip wheel "
-             "--no-deps -w /work ./mesher/python", offline=True)
+    root.copy(library, "/trial/liblivemesh.so")
+    root.run("sh", "-c", "cd /source && LIVEMESH_LIBRARY=/trial/liblivemesh.so /venv/bin/pip wheel "
+             "--no-deps -w /trial ./mesher/python", offline=True)
     root.apt("purge", *BUILD, *needed, "cpp", "gcc", "binutils")
     root.apt("autoremove", "--purge")
     root.apt("install", "python3-venv", "python3-numpy")
     check(not any(root.has(p) for p in ("cc", "c++", "gcc", "g++", "cmake")), "a compiler is left")
     root.run("python3", "-m", "venv", "--system-site-packages", "/other")
-    (wheel,) = (root.folder / "work").glob("*.whl")
-    root.run("/other/bin/pip", "install", f"/work/{wheel.name}", offline=True)
+    (wheel,) = (root.folder / "trial").glob("*.whl")
+    root.run("/other/bin/pip", "install", f"/trial/{wheel.name}", offline=True)
     where = use_python(root, "/other/bin/python")
     check(where.startswith("/other/"), f"livemesh is {where}")
     print(f"{wheel.name}: installed without a compiler and a network, and used")
@@ -220,7 +220,7 @@ def main():
                 print(f"debootstrap: {made.stdout[-2000:]}{made.stderr[-2000:]}")
                 return 77
         root = Chroot(folder)
-        root.copy(ROOT / "tests/data/great_lakes.poly", "/work/lake.poly")
+        root.copy(ROOT / "tests/data/great_lakes.poly", "/trial/lake.poly")
         install_and_use(root, packages)
         if args.pip:
             pip(root)
