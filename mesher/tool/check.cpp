@@ -183,11 +183,13 @@ void add_check(CLI::App& app) {
           "A mesh of triangles or tetrahedra: .node with .ele beside it, .vtu, .vtk, .msh\n"
           "or .mesh; of triangles also .off or .obj")
       ->required();
-  check->add_option(
-      "--input", args->input,
-      "Points that must be vertices, bit for bit, and lines that must be unions of edges:\n"
-      ".poly, .geojson, .obj, .vtu, .node, .xyz or .csv. For tetrahedra complexes, whose\n"
-      "polygons must be unions of faces: .poly or .smesh; points: all formats of 'mesh'");
+  check
+      ->add_option(
+          "--input", args->input,
+          "Points that must be vertices, bit for bit, and lines that must be unions of edges:\n"
+          ".poly, .geojson, .obj, .vtu, .node, .xyz or .csv. For tetrahedra complexes, whose\n"
+          "polygons must be unions of faces: .poly or .smesh; points: all formats of 'mesh'")
+      ->type_name("FILE");
   check
       ->add_option("--format", args->format,
                    "The format of MESH, given as an extension; for pipes and files without one")

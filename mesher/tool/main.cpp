@@ -13,6 +13,7 @@
 #include "mesher/predicates.hpp"
 #include "pipe.hpp"
 #include "platform/process.hpp"
+#include "shell/shell.hpp"
 
 namespace {
 
@@ -48,6 +49,7 @@ void add_commands(CLI::App& app, std::string_view called) {
   for (const Command& command : kCommands) {
     if (!any || is_called(command)) command.add(app);
   }
+  if (!any) tool::shell::add_commands(app);
 }
 
 int fail(ExitCode code, const std::string& message) {

@@ -63,6 +63,11 @@ class Documents(unittest.TestCase):
         self.assertEqual(found.failed, 0)
         self.assertGreater(found.attempted, 10)
 
+    def test_getting_started(self):
+        found = doctest.testfile(str(PYTHON.parent / "docs" / "start.md"), module_relative=False)
+        self.assertEqual(found.failed, 0)
+        self.assertGreater(found.attempted, 5)
+
     def test_readme_of_the_repository(self):
         text = (PYTHON.parents[1] / "README.md").read_text(encoding="utf-8")
         (block,) = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)

@@ -1,5 +1,7 @@
 """Live meshes: changes by slots, transfer, undo, batches, compaction."""
 import gc
+import os
+import tempfile
 import unittest
 
 import numpy as np
@@ -110,6 +112,19 @@ class Live(unittest.TestCase):
                                       np.sort(d.cells[m.cell_slots], axis=1))
         np.testing.assert_array_equal(d.find(points), slot_of)
         self.assertEqual(d.find([(.123, .456)])[0], lm.NO_CELL)
+
+    def test_what_the_tool_reads_of_its_graph_has_the_same_mesh(self):
+        d, p, _ = room()
+        d.update()
+        d.move(p[4:5], [(1.05, 1)])
+        d.update()
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "now.poly")
+            d.graph().write(path)
+            again = lm.mesh(path, bounds=((0, 0), (4, 4)), min_angle=28, algorithm="gap_balls")
+        np.testing.assert_array_equal(again.points, d.mesh().points)
+        np.testing.assert_array_equal(again.cells, d.mesh().cells)
+        self.assertGreater(len(again.cells), 10)
 
     def test_transfer_writes_to_no_memory_but_that_of_the_field(self):
         d, p, _ = room()

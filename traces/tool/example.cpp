@@ -1,6 +1,9 @@
 // traces example: records an example of the engine.
+#include <algorithm>
 #include <iostream>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "commands.hpp"
 #include "example_subject.hpp"
@@ -31,24 +34,27 @@ void run(const Arguments& args) {
   std::cout << '\n';
 }
 
+std::string listed(const char* between) {
+  std::string all;
+  for (const std::string& name : example_names()) all += (all.empty() ? "" : between) + name;
+  return all;
+}
+
 }  // namespace
 
 std::string is_example(const std::string& name) {
-  std::string all;
-  for (const std::string& known : example_names()) {
-    if (name == known) return "";
-    all += (all.empty() ? "" : ", ") + known;
-  }
-  return "'" + name + "' is no example; there are " + all;
+  const std::vector<std::string> names = example_names();
+  if (std::find(names.begin(), names.end(), name) != names.end()) return "";
+  return "'" + name + "' is no example; there are " + listed(", ");
 }
 
 void add_example(CLI::App& app) {
   const auto args = std::make_shared<Arguments>();
   CLI::App* sub =
       app.add_subcommand("example", "Runs an example of the engine, edits its input, records it");
-  sub->add_option("NAME", args->name, "list-map, quicksort, ...: any other name lists them all")
+  sub->add_option("NAME", args->name, "The example")
       ->required()
-      ->check(is_example, "");
+      ->check(CLI::Validator(is_example, "{" + listed(",") + "}"));
   sub->add_option("-o", args->output, "The trace")->required()->type_name("FILE.trace");
   sub->add_option("--n", args->n, "About how many elements the input has; 0 to 100000")
       ->check(CLI::Range(0, 100'000), "")

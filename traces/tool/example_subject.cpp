@@ -17,6 +17,7 @@ void for_each_example(Visit&& visit) {
 }
 
 std::string option_name(std::string name) {
+  std::erase(name, ',');
   std::replace(name.begin(), name.end(), ' ', '-');
   return name;
 }

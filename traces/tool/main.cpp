@@ -5,6 +5,7 @@
 
 #include "commands.hpp"
 #include "mesher/error.hpp"
+#include "shell/shell.hpp"
 #include "traces/trace_file.hpp"
 
 namespace {
@@ -28,6 +29,7 @@ constexpr const char* kHelpFooter =
 int run(int argc, char** argv) {
   CLI::App app{"Compares, audits and draws recorded traces of self-adjusting programs.", "traces"};
   app.footer(kHelpFooter);
+  app.set_version_flag("--version", "traces " TRACES_VERSION);
   app.require_subcommand(1);
   int exit_code = Exit::kOk;
   tool::add_example(app);
@@ -36,6 +38,7 @@ int run(int argc, char** argv) {
   tool::add_audit(app, exit_code);
   tool::add_render(app);
   tool::add_stability(app, exit_code);
+  tool::shell::add_commands(app);
   try {
     app.parse(argc, argv);
     return exit_code;

@@ -208,8 +208,8 @@ class Handle:
     def __reduce_ex__(self, _: Any) -> NoReturn:
         raise TypeError("objects of livemesh cannot be pickled; write them to a file")
 
-    def __del__(self) -> None:
-        _free(self.value)
+    def __del__(self, free: Callable[[int], Any] = _free) -> None:
+        free(self.value)  # which an interpreter that ends has no name for any more
 
 
 def new(function: Callable[..., int], *arguments: Any) -> Handle:
