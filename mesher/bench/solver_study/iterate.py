@@ -9,7 +9,7 @@ from scipy import sparse
 from scipy.linalg import eigvalsh_tridiagonal
 from scipy.sparse import linalg
 
-LIMIT = 50000  # iterations
+LIMIT = 20000  # iterations
 
 
 def conjugate_gradients(matrix, right, precondition, tolerance=1e-8):
