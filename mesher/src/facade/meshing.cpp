@@ -84,8 +84,8 @@ std::size_t most_after(const Graph<D>& graph, const Options<D>& options) {
   return options.max_vertices == 0 ? most : std::min(most, options.max_vertices);
 }
 
-// What is tried in turn: where svr finds features too close, at tiny angles of some, refine may not,
-// since it knows all points from the start.
+// What is tried in turn: where svr finds features too close, at tiny angles of some, refine may
+// not, since it knows all points from the start.
 template <int D>
 std::vector<Algorithm> choices(const Graph<D>& graph, const Options<D>& options) {
   std::vector<Algorithm> all{fastest(graph, options)};

@@ -196,11 +196,11 @@ class Conformity : public LineConformity<3, Conformity> {
   Lists at_edge_, at_point_;
   Tiles tiles_;
   std::vector<std::uint32_t> wanted_tiles_;
-  std::vector<bool> is_turned_;         // by polygon: its upper side is not the normal's
-  std::vector<double> lost_, gained_;   // by polygon: the area of tiles since the last look
-  std::vector<Rank> loose_;             // polygons that have lost tiles
-  std::vector<bool> is_loose_;          // by polygon
-  std::vector<Side> open_;              // sides of edges where tiles were missing
+  std::vector<bool> is_turned_;        // by polygon: its upper side is not the normal's
+  std::vector<double> lost_, gained_;  // by polygon: the area of tiles since the last look
+  std::vector<Rank> loose_;            // polygons that have lost tiles
+  std::vector<bool> is_loose_;         // by polygon
+  std::vector<Side> open_;             // sides of edges where tiles were missing
   // By polygon: edges of tiles that came or went, and pieces that were split, since its open sides
   // were found.
   std::vector<std::vector<std::array<std::uint32_t, 2>>> suspects_;

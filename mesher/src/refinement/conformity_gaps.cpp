@@ -35,8 +35,7 @@ void Conformity::note_loose(Rank f) {
 /// Whether tiles have come where some were lost since the last look. (Compared with the area of all
 /// of the polygon, that of small ones would be rounding.)
 bool Conformity::is_covered_again(Rank f) const {
-  return has_looked_[f] && !has_gap_[f] &&
-         std::abs(gained_[f] - lost_[f]) <= kUncovered * lost_[f];
+  return has_looked_[f] && !has_gap_[f] && std::abs(gained_[f] - lost_[f]) <= kUncovered * lost_[f];
 }
 
 /// Requires: v is on the polygon, or beside it.
@@ -151,8 +150,8 @@ bool Conformity::looks_again() {
   return !open_.empty();
 }
 
-/// Nothing: there is a tile, or no such edge any more, or nothing pierces the polygon beside it: then
-/// it is suspect again. Cost: O(star of a).
+/// Nothing: there is a tile, or no such edge any more, or nothing pierces the polygon beside it:
+/// then it is suspect again. Cost: O(star of a).
 auto Conformity::gap_at(const Side& side) -> std::optional<Gap> {
   const Rank rank = side.polygon;
   bool is_edge = false;

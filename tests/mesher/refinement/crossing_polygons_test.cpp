@@ -83,7 +83,8 @@ Graph<3> poked(std::mt19937_64& random, double depth) {
   all.points.push_back(apex);
   const std::size_t n = 4 + random() % 3;
   for (std::size_t k = 0; k < n; ++k) {
-    const double angle = 2 * M_PI * (static_cast<double>(k) + 0.8 * unit()) / static_cast<double>(n);
+    const double angle =
+        2 * 3.14159265358979 * (static_cast<double>(k) + 0.8 * unit()) / static_cast<double>(n);
     all.points.push_back({apex[0] + 0.2 * std::cos(angle), apex[1] + 0.2 * std::sin(angle),
                           apex[2] + 0.03 * unit() - 0.005});
     all.faces.push_back({{{3, 4 + k, 4 + (k + 1) % n}}, {}});
