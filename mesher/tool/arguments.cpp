@@ -365,10 +365,6 @@ Input<D> as_meshed(Input<D> input, const MeshArguments& args) {
   return input;
 }
 
-mesher::CoincidingPoints coinciding(const MeshArguments& args) {
-  return args.repair ? mesher::CoincidingPoints::kept : mesher::CoincidingPoints::refused;
-}
-
 }  // namespace
 
 template <int D>
@@ -379,7 +375,7 @@ Input<D> read_input(const MeshArguments& args) {
   if (D == 2 && args.no_flat) {
     throw Error(ErrorCode::bad_option, "--no-flat is for space", {args.input});
   }
-  Input<D> input(args.input, faces(args), coinciding(args));
+  Input<D> input(args.input, faces(args), coinciding(args.repair));
   drop_copies();
   return as_meshed<D>(std::move(input), args);
 }

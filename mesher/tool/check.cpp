@@ -75,13 +75,10 @@ std::string counts_of(const mesher::MeshData<D>& mesh) {
                       {args.mesh});
 }
 
-mesher::CoincidingPoints coinciding(const CheckArguments& args) {
-  return args.repair ? mesher::CoincidingPoints::kept : mesher::CoincidingPoints::refused;
-}
-
-/// As 'mesh' would mesh it.
+/// --input, as 'mesh' would mesh it.
 template <int D>
-Input<D> as_meshed(Input<D> input, const CheckArguments& args) {
+Input<D> input_of(const CheckArguments& args, Faces faces) {
+  Input<D> input(args.input, faces, coinciding(args.repair));
   if (args.repair) locating(input, [&] { input.repair({}); });
   return input;
 }
@@ -92,9 +89,7 @@ Judged judge(const CheckArguments& args, mesher::MeshData<2>& mesh) {
   if (args.near) refuse(args, "--near", "tetrahedra");
   if (args.surface || args.merge) refuse(args, args.merge ? "--merge" : "--surface", "tetrahedra");
   mesher::GraphFile<2> graph;
-  if (!args.input.empty()) {
-    graph = as_meshed(Input<2>(args.input, Faces::unless_points, coinciding(args)), args).file();
-  }
+  if (!args.input.empty()) graph = input_of<2>(args, Faces::unless_points).file();
   forget_counted_values(args.mesh, mesh, graph);
   mesher::CheckOptions<2> options;
   options.features = &mesh.features;
@@ -132,7 +127,7 @@ Judged judge(const CheckArguments& args, mesher::MeshData<3>& mesh) {
   std::optional<Input<3>> input;
   mesher::GraphFile<3> complex;
   if (!args.input.empty()) {
-    input.emplace(as_meshed(Input<3>(args.input, faces_of(args), coinciding(args)), args));
+    input.emplace(input_of<3>(args, faces_of(args)));
     complex = input->file();
     if (faces_of(args) == Faces::polygons && !args.no_merge && !is_complex(args.input)) {
       merge_unless_named(complex, mesh);

@@ -89,6 +89,11 @@ enum class Faces : std::uint8_t {
   merged,  ///< polygons; those of one plane that are side by side are one
 };
 
+/// What is read of points at one position: a repair makes them one.
+[[nodiscard]] inline mesher::CoincidingPoints coinciding(bool is_repaired) {
+  return is_repaired ? mesher::CoincidingPoints::kept : mesher::CoincidingPoints::refused;
+}
+
 /// Those of one plane that are side by side are one; those that are left keep their positions.
 [[nodiscard]] mesher::GraphFile<3> with_merged_polygons(const mesher::GraphFile<3>& all);
 

@@ -123,7 +123,8 @@ void add_mesh(CLI::App& app) {
           "of all points; gap-balls: the mesh that `edit` maintains, in 1.4 to 2 times the time,\n"
           "with limits of size in 10 to 15 times. auto: refine in the plane and for evenly spread\n"
           "points in space, else svr; gap-balls with --static, another rule, or a --rho below its\n"
-          "default if there are lines or polygons, or if the first choice finds features too close")
+          "default if there are lines or polygons. If that finds features too close or needs too\n"
+          "many vertices, in space refine is tried after svr, then gap-balls")
       ->check(CLI::IsMember({"auto", "gap-balls", "svr", "refine"}))
       ->capture_default_str();
   mesh->add_option(

@@ -158,7 +158,13 @@ for merged in '' --merge; do
     mesh soup.stl --surface $merged --repair -o soup.1.node
   expect 0 'regions     ok      1 regions' check soup.1.node --rho 2
   expect 0 'cover       ok' check soup.1.node --rho 2
+  # shellcheck disable=SC2086
+  expect 0 'polygons    ok' check soup.1.node --input soup.stl --surface $merged --repair --ties --rho 2
+  expect 1 'BROKEN' check soup.1.node --input soup.stl --surface
 done
+expect 0 '' mesh soup.stl --surface --no-merge --repair --quiet -o soup.2.node
+expect 0 'polygons    ok' check soup.2.node --input soup.stl --surface --no-merge --repair
+refuse 2 '--repair requires --input' check soup.1.node --repair
 expect 0 'soup.stl:4:1: repair: polygon 1 has point 5 (1, 1, 0) on it' \
   mesh soup.stl --surface --repair -o x.vtu
 refuse 1 'error[outside_domain]' mesh soup.stl --surface --repair --domain 0 0 0 1 1 1 -o out/x.vtu

@@ -104,7 +104,7 @@ Mesh<D> run_fastest(const Graph<D>& graph, const Options<D>& options, RunReport&
       return run(all[i], graph, options, report, control, refinement);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::too_close && error.code() != ErrorCode::too_many) throw;
-      if (i > 0) continue;
+      if (report.gave_up) continue;
       report.tried = all[i];
       report.gave_up = error;
     }

@@ -149,6 +149,28 @@ TEST_CASE("vertices of polygons are in their planes, at decimal places too") {
   CHECK(first_fault(Case(plc).findings()) == "");
 }
 
+// They are no corners, so that nothing but themselves says how far off they may be.
+TEST_CASE("points that are declared in a polygon are in its plane, too, but for its flatness") {
+  Graph<3> plc = mesher::generate_plc({PlcKind::cube});
+  for (const double height : {0.0, 1e-9}) {
+    INFO("off by " << height);
+    Graph<3> bent = plc;
+    const PointId id{100};
+    bent.points.push_back({id, {0.4, 0.3, 1 + height}});
+    const auto at = [&](PointId p) {
+      return std::find_if(bent.points.begin(), bent.points.end(),
+                          [&](const auto& q) { return q.id == p; })
+          ->at;
+    };
+    for (auto& f : bent.polygons) {
+      const bool is_top = std::all_of(f.loops[0].begin(), f.loops[0].end(),
+                                      [&](PointId p) { return at(p)[2] == 1; });
+      if (is_top) f.points.push_back(id);
+    }
+    CHECK(first_fault(Case(bent).findings()) == "");
+  }
+}
+
 TEST_CASE("a seed on a polygon, on its edge or at its corner stands for neither side") {
   const Graph<3> plc = mesher::generate_plc({PlcKind::cube_square});
   for (const mesher::Point<3>& seed : {mesher::Point<3>{0.5, 0.5, 0.5},

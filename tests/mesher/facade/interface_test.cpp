@@ -9,6 +9,7 @@
 #include "handle_an_error.hpp"
 #include "mesh_a_file.hpp"
 #include "mesher/all.hpp"
+#include "mesher/extra/generate.hpp"
 #include "snippets.hpp"
 #include "test_paths.hpp"
 
@@ -133,6 +134,21 @@ TEST_CASE("mesh() of a square, by every algorithm") {
     CHECK(made.mesh.features.regions[0] == 7);
     require_good(made, graph, 1.4142);
   }
+}
+
+TEST_CASE("where svr gives up, refine is next") {
+  const Graph<3> graph = generate_plc({PlcKind::shells});
+  const auto in_box = [&](Algorithm a) {
+    return box_mesh(graph, Options<3>{.algorithm = a}).vertices.size();
+  };
+  const std::size_t by_svr = in_box(Algorithm::svr), by_refine = in_box(Algorithm::refine);
+  REQUIRE(by_refine < by_svr);
+  const auto made = mesh(graph, Options<3>{.max_vertices = (by_svr + by_refine) / 2});
+  CHECK(made.report.tried == Algorithm::svr);
+  REQUIRE(made.report.gave_up);
+  CHECK(made.report.gave_up->code() == ErrorCode::too_many);
+  CHECK(made.report.algorithm == Algorithm::refine);
+  require_good(made, graph, 2);
 }
 
 TEST_CASE("mesh() of a box with a polyline in it, by every algorithm") {
