@@ -53,6 +53,25 @@ struct Filled {
   bool waits = false;    // for leaves that are cut
 };
 
+/// The vertex at `point`, which fills a gap ball of v. In a tile nothing, if that is not possible:
+/// it may be otherwise when other tiles have said what they have.
+template <class S, int D>
+std::optional<VertexRef<D>> fill_at(S& s, World<S, D>& w, CellOf<D>& gaps, const Vertex<D>& v,
+                                    const typename InsertionRule<D>::NewPoint& point) {
+  const auto fill = [&] {
+    const VertexRef<D> x = w.vertices.insert(s, point.p);
+    if (!point.farther || !gaps.cuts(x->p)) w.fail_useless(v, *x);
+    return x;
+  };
+  if (!S::kTraced || w.border == nullptr) return fill();
+  try {
+    return fill();
+  } catch (const Error& error) {
+    if constexpr (S::kTraced) w.border->fault(s, error);
+    return std::nullopt;
+  }
+}
+
 // While there is a gap ball b = B(x, r) to fill: if x is in the balls of leaves, cut them instead
 // [5.2c]; else add x to the vertices; add Complete(x), with key |xv|
 template <class S, int D>
@@ -67,13 +86,13 @@ Filled fill_gaps(S& s, World<S, D>& w, CellOf<D>& gaps, Staying<S, D>& stays, co
     }
     filled.inserts = filled.inserts || outcome == Outcome::yielded;
     if (outcome != Outcome::stands) continue;
-    const VertexRef<D> x = w.vertices.insert(s, point->p);
-    if (!point->farther || !gaps.cuts(x->p)) w.fail_useless(v, *x);
+    const std::optional<VertexRef<D>> x = fill_at(s, w, gaps, v, *point);
+    if (!x) return filled;
     w.require_room(s);
-    gaps.cut(x->self);
+    gaps.cut((*x)->self);
     filled.inserts = true;
-    w.post_complete(s, x, std::max(b + 1, w.buckets().bucket(point->nearest2)));
-    w.post_star(s, x);
+    w.post_complete(s, *x, std::max(b + 1, w.buckets().bucket(point->nearest2)));
+    w.post_star(s, *x);
   }
   return filled;
 }

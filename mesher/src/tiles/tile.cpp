@@ -1,0 +1,292 @@
+// A tile's runs, and what it tells others.
+#include "tiles/tile.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "mesh/canonical.hpp"
+#include "program/world_impl.hpp"
+#include "tiles/tile_calls.hpp"
+
+namespace mesher::detail {
+
+template <int D>
+Tile<D>::Tile(const Options<D>& options, const MeshBox<D>& box, const Territories<D>& all,
+              std::size_t self)
+    : all_(all),
+      self_(self),
+      engine_(std::make_unique<sac::Engine>()),
+      border_(std::make_unique<TileBorder<D>>(*engine_, all, self, box.side)),
+      world_(std::make_unique<World<sac::Scope, D>>(options, box, *engine_, border_.get())),
+      asked_(all.size()),
+      askers_(all.size()) {
+  border_->attach(world_->vertices.pool(), world_->quadtree.number(), world_->stars.number());
+  world_->vertices.set_listener(border_.get());
+  world_->most_records = ~std::size_t{0};  // all tiles together have a limit
+}
+
+template <int D>
+Tile<D>::~Tile() {
+  engine_.reset();  // before what its calls refer to
+}
+
+// --- Edits and messages ----------------------------------------------------------------------
+
+template <int D>
+sac::Agenda& Tile<D>::agenda(const Turn& turn) noexcept {
+  if (turn.stage == Stage::quadtree) return world_->quadtree;
+  if (turn.stage == Stage::stars) return world_->stars;
+  return world_->steiner_at(turn.key(kKeyWidths).bucket);
+}
+
+template <int D>
+void Tile<D>::edit(const std::vector<Edit>& edits) {
+  auto& w = *world_;
+  for (const Edit& e : edits) {
+    dirty_ = true;
+    const VertexRef<D> v = w.vertices.claim(e.p);
+    if (e.was) w.quadtree.template retract_from_outside<locate_known>(v, *e.was);
+    v->input = e.is.has_value();
+    if (!e.is) continue;
+    w.quadtree.template post_from_outside<locate_known>(locate_key(w.box.fixed(e.p)), v, *e.is);
+  }
+}
+
+template <int D>
+void Tile<D>::receive(std::size_t from, const std::vector<Message<D>>& messages) {
+  using Kind = typename Message<D>::Kind;
+  const auto who = static_cast<std::uint32_t>(from);
+  for (const Message<D>& m : messages) {
+    if (m.to != self_) continue;
+    dirty_ = true;
+    switch (m.kind) {
+      case Kind::ask:
+        ask(who, m.look);
+        break;
+      case Kind::end:
+        end(who, m.look);
+        break;
+      case Kind::arrive:
+        arrived(who, m.birth);
+        break;
+      case Kind::depart:
+        departed(who, m.birth);
+        break;
+    }
+  }
+}
+
+template <int D>
+void Tile<D>::ask(std::uint32_t from, const Look<D>& look) {
+  const std::uint32_t id = next_question_++;
+  agenda(look.turn).template post_from_outside<across>(
+      look.turn.key(kKeyWidths), world_->vertices.claim(look.p), look.radius, id);
+  questions_.emplace(id, Question{from, look});
+  askers_[from].questions.emplace(look, id);
+}
+
+template <int D>
+void Tile<D>::end(std::uint32_t from, const Look<D>& look) {
+  const auto it = askers_[from].questions.find(look);
+  SAC_ENSURES(it != askers_[from].questions.end());
+  agenda(look.turn).template retract_from_outside<across>(world_->vertices.claim(look.p),
+                                                          look.radius, it->second);
+  askers_[from].questions.erase(it);  // the question is kept until its answer has gone
+}
+
+template <int D>
+void Tile<D>::arrived(std::uint32_t from, const Birth<D>& birth) {
+  const VertexRef<D> v = world_->vertices.claim(birth.p);
+  const Turn& t = birth.turn;
+  agenda(t).template post_from_outside<arrive>(t.key(kKeyWidths), v, birth.bucket,
+                                               static_cast<std::uint32_t>(t.stage), t.rank, t.order,
+                                               from);
+  from_.emplace(birth.p, From{t, from});
+}
+
+template <int D>
+void Tile<D>::departed(std::uint32_t from, const Birth<D>& birth) {
+  const VertexRef<D> v = world_->vertices.claim(birth.p);
+  const Turn& t = birth.turn;
+  agenda(t).template retract_from_outside<arrive>(
+      v, birth.bucket, static_cast<std::uint32_t>(t.stage), t.rank, t.order, from);
+  const auto [first, last] = from_.equal_range(birth.p);
+  const auto it = std::find_if(
+      first, last, [&](const auto& f) { return f.second.turn == t && f.second.tile == from; });
+  SAC_ENSURES(it != last);
+  from_.erase(it);
+}
+
+// --- Runs ------------------------------------------------------------------------------------
+
+template <int D>
+void Tile<D>::run_quadtree() {
+  dirty_ = false;
+  engine_->template run<detail::run_quadtree<D>>();
+}
+
+template <int D>
+void Tile<D>::run_part(int part) {
+  engine_->template run<detail::run_part<D>>(part);
+}
+
+template <int D>
+void Tile<D>::run_stars() {
+  engine_->template run<detail::run_stars<D>>();
+}
+
+template <int D>
+int Tile<D>::next_part(int part) const noexcept {
+  while (part < parts() && world_->parts[static_cast<std::size_t>(part)]->waiting_calls() == 0) {
+    ++part;
+  }
+  return part;
+}
+
+template <int D>
+void Tile<D>::propagate() {
+  engine_->propagate();
+  dirty_ = false;
+}
+
+// --- What is new -----------------------------------------------------------------------------
+
+template <int D>
+std::vector<Message<D>> Tile<D>::collect(Changes* changes) {
+  std::vector<Message<D>> out;
+  const auto log = world_->vertices.log();
+  collect_looks(out);
+  collect_births(out);
+  collect_answers(log.touched, out);
+  if (changes != nullptr) collect_changes(*changes);
+  world_->vertices.commit();
+  return out;
+}
+
+// Looks that came and went, or went and came, are as they were.
+template <int D>
+void Tile<D>::collect_looks(std::vector<Message<D>>& out) {
+  using Kind = typename Message<D>::Kind;
+  std::map<std::pair<std::uint32_t, Look<D>>, int> changed;
+  for (const auto& e : border_->take_looks()) {
+    all_.for_each_met(e.area, [&](std::size_t tile) {
+      if (tile != self_) changed[{static_cast<std::uint32_t>(tile), e.look}] += e.sign;
+    });
+  }
+  for (const auto& [where, sum] : changed) {
+    const auto& [to, look] = where;
+    if (sum == 0) continue;
+    auto& looks = asked_[to].looks;
+    std::uint32_t& count = looks[look];
+    const bool was = count != 0;
+    count = static_cast<std::uint32_t>(static_cast<int>(count) + sum);
+    const bool is = count != 0;
+    if (!is) looks.erase(look);
+    if (was != is) out.push_back({is ? Kind::ask : Kind::end, to, look, {}});
+  }
+}
+
+template <int D>
+void Tile<D>::collect_births(std::vector<Message<D>>& out) {
+  using Kind = typename Message<D>::Kind;
+  std::map<Birth<D>, int> changed;
+  for (const auto& e : border_->take_births()) changed[e.birth] += e.sign;
+  for (const auto& [birth, sum] : changed) {
+    if (sum == 0) continue;
+    const auto to = static_cast<std::uint32_t>(all_.owner(birth.p));
+    out.push_back({sum > 0 ? Kind::arrive : Kind::depart, to, {}, birth});
+  }
+}
+
+// When v was born, unless that was in the asking tile, which knows.
+template <int D>
+std::optional<Turn> Tile<D>::birth_for(std::uint32_t asker, const Vertex<D>& v) const {
+  if (!v.alive || v.boundary) return std::nullopt;
+  const Turn turn = border_->turn_of(engine_->call_at(v.presence.birth()));
+  const auto [first, last] = from_.equal_range(v.p);
+  const bool known = std::any_of(
+      first, last, [&](const auto& f) { return f.second.tile == asker && f.second.turn == turn; });
+  return known ? std::nullopt : std::optional(turn);
+}
+
+template <int D>
+void Tile<D>::collect_answers(const std::vector<VertexHandle>& touched,
+                              std::vector<Message<D>>& out) {
+  using Kind = typename Message<D>::Kind;
+  const auto& pool = world_->vertices.pool();
+  std::vector<std::vector<VertexHandle>> doubtful(askers_.size());
+  for (const VertexHandle h : touched) {
+    for (std::size_t t = 0; t < askers_.size(); ++t) {
+      if (askers_[t].told.count(h) != 0) doubtful[t].push_back(h);
+    }
+  }
+  for (const std::uint32_t id : border_->take_answered()) {
+    const auto it = questions_.find(id);
+    if (it == questions_.end()) continue;  // looked at already, and gone
+    const Question& q = it->second;
+    for (const VertexHandle h : border_->answer_to(id)) {
+      if (!border_->owns(pool[h].p) || pool[h].boundary) continue;
+      if (askers_[q.from].told.try_emplace(h).second) doubtful[q.from].push_back(h);
+    }
+    const auto still = askers_[q.from].questions.find(q.look);
+    const bool is_asked = still != askers_[q.from].questions.end() && still->second == id;
+    if (!is_asked) questions_.erase(it);
+  }
+  for (std::size_t t = 0; t < askers_.size(); ++t) {
+    auto& some = doubtful[t];
+    std::sort(some.begin(), some.end(),
+              [&](VertexHandle a, VertexHandle b) { return pool[a].p < pool[b].p; });
+    some.erase(std::unique(some.begin(), some.end()), some.end());
+    for (const VertexHandle h : some) {
+      std::optional<Turn>& told = askers_[t].told[h];
+      const auto to = static_cast<std::uint32_t>(t);
+      const std::optional<Turn> turn = birth_for(to, pool[h]);
+      if (turn != told) {
+        if (told) out.push_back({Kind::depart, to, {}, {pool[h].p, -1, *told}});
+        if (turn) out.push_back({Kind::arrive, to, {}, {pool[h].p, -1, *turn}});
+        told = turn;
+      }
+      if (!pool[h].alive) askers_[t].told.erase(h);
+    }
+  }
+}
+
+template <int D>
+void Tile<D>::collect_changes(Changes& changes) const {
+  const auto& pool = world_->vertices.pool();
+  const auto log = world_->vertices.log();
+  for (const VertexHandle h : log.touched) {
+    const Vertex<D>& v = pool[h];
+    if (!border_->owns(v.p)) continue;
+    if (v.committed && (!v.alive || v.kind() != v.committed_kind)) {
+      changes.vertices_gone.emplace_back(v.p, v.committed_kind);
+    }
+    if (v.alive && (!v.committed || v.kind() != v.committed_kind)) {
+      changes.vertices_come.emplace_back(v.p, v.kind());
+    }
+  }
+  const auto add = [&](const auto& stars, auto& simplices) {
+    for (const auto& star : stars) {
+      for_each_own_simplex(pool, pool[star.center], star.ring, [&](const auto& t) {
+        auto& places = simplices.emplace_back();
+        for (std::size_t k = 0; k < t.size(); ++k) places[k] = pool[t[k]].p;
+        places = smallest_first(places);
+      });
+    }
+  };
+  add(log.stars_gone, changes.simplices_gone);
+  add(log.stars_come, changes.simplices_come);
+}
+
+template <int D>
+void Tile<D>::check_invariants() const {
+  engine_->check_invariants();
+  world_->vertices.check_invariants();
+}
+
+template class Tile<2>;
+#ifndef MESHER_PLANE_ONLY
+template class Tile<3>;
+#endif
+
+}  // namespace mesher::detail

@@ -1,0 +1,124 @@
+// A tile: a mesher that runs the calls of its territory alone.
+//
+// What it must know of others comes as calls posted from outside, at the turns of theirs: births
+// that it sees (arrive), and questions about what is here (across). What has changed for others it
+// tells between runs, as messages. Where a neighbour's birth changes, that is an edit of the calls
+// posted for it, and change propagation does the rest. When there are no messages left, each call
+// has seen what it would have seen in one mesher for all, by induction over the turns:
+//   a call that looks beyond the territory asks each tile whose territory it reaches who of its
+//   vertices would be around it there, at its turn. Whoever bounds its cell among all vertices
+//   bounds that among fewer, too; so all that matter to it arrive.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "program/world.hpp"
+#include "tiles/tile_border.hpp"
+#include "tiles/turn.hpp"
+
+namespace mesher::detail {
+
+/// From one tile to another. A question that ends, and a birth that does, are named as they began.
+template <int D>
+struct Message {
+  enum class Kind : std::uint8_t { ask, end, arrive, depart };
+  Kind kind;
+  std::uint32_t to;
+  Look<D> look;    // ask, end
+  Birth<D> birth;  // arrive, depart
+};
+
+template <int D>
+class Tile {
+ public:
+  /// `level`: of a point, the deepest one at which it is crowded among those of all tiles.
+  struct Edit {
+    Point<D> p;
+    std::optional<int> was, is;  // nothing: it is not there
+  };
+
+  Tile(const Options<D>& options, const MeshBox<D>& box, const Territories<D>& all,
+       std::size_t self);
+  Tile(const Tile&) = delete;
+  Tile& operator=(const Tile&) = delete;
+  ~Tile();
+
+  /// Makes edits of points of the territory; they are run next.
+  void edit(const std::vector<Edit>& edits);
+  /// The messages of tile `from`; likewise.
+  void receive(std::size_t from, const std::vector<Message<D>>& messages);
+  /// Whether something waits to be run.
+  [[nodiscard]] bool is_dirty() const noexcept { return dirty_; }
+
+  /// The parts of a first run: points are located; parts 0 to parts() - 1, by buckets; stars.
+  void run_quadtree();
+  void run_part(int part);
+  void run_stars();
+  [[nodiscard]] int parts() const noexcept { return static_cast<int>(world_->parts.size()); }
+  /// The first part from `part` on in which calls wait.
+  [[nodiscard]] int next_part(int part) const noexcept;
+  /// Brings what has run up to date with edits and messages.
+  void propagate();
+
+  /// What is new for others since the last call; adds to `changes` what is new in the mesh.
+  struct Changes {
+    std::vector<std::pair<Point<D>, VertexKind>> vertices_come, vertices_gone;
+    std::vector<std::array<Point<D>, D + 1>> simplices_come, simplices_gone;
+  };
+  [[nodiscard]] std::vector<Message<D>> collect(Changes* changes);
+
+  [[nodiscard]] const World<sac::Scope, D>& world() const noexcept { return *world_; }
+  [[nodiscard]] const TileBorder<D>& border() const noexcept { return *border_; }
+  [[nodiscard]] const sac::Engine& engine() const noexcept { return *engine_; }
+  void check_invariants() const;
+
+ private:
+  // Who has asked, and what it was told.
+  struct Question {
+    std::uint32_t from;
+    Look<D> look;
+  };
+  struct Asked {  // of another tile
+    std::unordered_map<Look<D>, std::uint32_t, TurnHash<D>> looks;  // how often
+  };
+  struct Asker {  // another tile
+    std::unordered_map<Look<D>, std::uint32_t, TurnHash<D>> questions;
+    // Who was found for it, and the turns of their births; nothing: it knows. What it was told it
+    // knows for good: if it forgot what is hidden from it, two tiles could hide things from each
+    // other by what they were about to forget.
+    std::unordered_map<VertexHandle, std::optional<Turn>> told;
+  };
+  struct From {
+    Turn turn;
+    std::uint32_t tile;
+  };
+
+  [[nodiscard]] sac::Agenda& agenda(const Turn& turn) noexcept;
+  void ask(std::uint32_t from, const Look<D>& look);
+  void end(std::uint32_t from, const Look<D>& look);
+  void arrived(std::uint32_t from, const Birth<D>& birth);
+  void departed(std::uint32_t from, const Birth<D>& birth);
+  void collect_looks(std::vector<Message<D>>& out);
+  void collect_births(std::vector<Message<D>>& out);
+  void collect_answers(const std::vector<VertexHandle>& touched, std::vector<Message<D>>& out);
+  [[nodiscard]] std::optional<Turn> birth_for(std::uint32_t asker, const Vertex<D>& v) const;
+  void collect_changes(Changes& changes) const;
+
+  const Territories<D>& all_;
+  std::size_t self_;
+  std::unique_ptr<sac::Engine> engine_;
+  std::unique_ptr<TileBorder<D>> border_;
+  std::unique_ptr<World<sac::Scope, D>> world_;
+  bool dirty_ = false;
+  std::vector<Asked> asked_;   // by tile
+  std::vector<Asker> askers_;  // by tile
+  std::unordered_map<std::uint32_t, Question> questions_;
+  std::uint32_t next_question_ = 0;
+  std::unordered_multimap<Point<D>, From, TurnHash<D>> from_;  // whose births have arrived
+};
+
+}  // namespace mesher::detail

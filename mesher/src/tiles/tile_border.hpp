@@ -1,0 +1,208 @@
+// What happens across the border of a tile, as a traceable data type:
+//
+//   hand_over(s, v, b)   the running call gives birth to v beyond the territory;     (effect)
+//                        who owns the place completes it in bucket b
+//   answer(s, id, found) the running call has looked, for another tile, who is here  (effect)
+//   fault(s, error)      the running call cannot do what it should                   (effect)
+//
+// and the observations of the tile's own calls that reach beyond the territory. Between runs it is
+// asked what has changed since. While tiles do not agree yet, a call may meet vertices that will not
+// be there in the end; so a fault counts only when they do.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "index/look_listener.hpp"
+#include "mesher/error.hpp"
+#include "sac/sac.hpp"
+#include "tiles/territory.hpp"
+#include "tiles/turn.hpp"
+
+namespace mesher::detail {
+
+template <int D>
+class TileBorder final : public sac::Structure, public LookListener<D> {
+ public:
+  /// `side`: of the meshing box.
+  TileBorder(sac::Engine& engine, const Territories<D>& all, std::size_t self, double side)
+      : engine_(engine),
+        all_(all),
+        self_(self),
+        side_(side),
+        id_(engine.add_structure(*this)) {}
+  TileBorder(const TileBorder&) = delete;
+  TileBorder& operator=(const TileBorder&) = delete;
+
+  /// The vertices, and the agendas' numbers; any other is one of ChooseSteiners.
+  void attach(const VertexPool<D>& pool, std::uint64_t quadtree, std::uint64_t stars) noexcept {
+    pool_ = &pool;
+    quadtree_ = quadtree;
+    stars_ = stars;
+  }
+  [[nodiscard]] bool owns(const Point<D>& p) const noexcept { return all_.owns(self_, p); }
+  [[nodiscard]] Turn turn_of(const sac::Call& call) const noexcept {
+    const Stage stage = call.work_queue == quadtree_ ? Stage::quadtree
+                        : call.work_queue == stars_  ? Stage::stars
+                                                     : Stage::steiner;
+    return {stage, sac::Slot::of(call).rank, sac::Slot::of(call).order};
+  }
+
+  void hand_over(sac::Scope& s, VertexRef<D> v, int bucket) {
+    const auto same = [&](const HandOver& e) { return e.vertex == v->self && e.bucket == bucket; };
+    if (s.recall<HandOver>(id_, kHandOver, same) != nullptr) return;
+    make_room(births_, ++handed_over_);
+    auto& edge = s.effect<HandOver>(id_, kHandOver);
+    edge.vertex = v->self;
+    edge.bucket = bucket;
+    births_.push_back({{v->p, bucket, turn_of(s.self())}, 1});
+  }
+  void answer(sac::Scope& s, std::uint32_t id, std::span<const VertexHandle> found) {
+    const auto same = [&](const Answer& e) {
+      return e.id == id && std::equal(found.begin(), found.end(), e.found(), e.found() + e.count);
+    };
+    if (s.recall<Answer>(id_, kAnswer, same) != nullptr) return;
+    answers_.try_emplace(id);
+    make_room(answered_, answers_.size());
+    auto& edge = s.effect<Answer>(id_, kAnswer, found.size_bytes());
+    edge.id = id;
+    edge.count = static_cast<std::uint32_t>(found.size());
+    std::copy(found.begin(), found.end(), edge.found());
+    answers_[id] = sac::Arena::ref(edge);
+    answered_.push_back(id);
+  }
+  /// Errors are kept for good: there are few.
+  void fault(sac::Scope& s, const Error& error) {
+    faults_.push_back(error);
+    auto& edge = s.effect<Fault>(id_, kFault);
+    edge.error = static_cast<std::uint32_t>(faults_.size() - 1);
+    live_faults_.emplace(edge.error, turn_of(s.self()));
+  }
+
+  void looked(const Vertex<D>& center, const Observation<D>& o, double radius) override {
+    const Box<D> area = area_of(center, o);
+    if (is_inside(area)) return;
+    const Look<D> look{center.p, radius, turn_of(engine_.call(o.call))};
+    crossing_.emplace(engine_.arena().handle_of(&o), std::pair{look, area});
+    make_room(looks_, crossing_.size());
+    looks_.push_back({look, area, 1});
+  }
+  void forgot(const Vertex<D>& center, const Observation<D>& o) noexcept override {
+    if (crossing_.empty() || is_inside(area_of(center, o))) return;
+    const auto it = crossing_.find(engine_.arena().handle_of(&o));
+    if (it == crossing_.end()) return;
+    looks_.push_back({it->second.first, it->second.second, -1});
+    crossing_.erase(it);
+  }
+
+  // --- What has changed since it was asked last; in the order of events, each with 1 or -1
+
+  struct LookEvent {
+    Look<D> look;
+    Box<D> area;  // beyond which nothing concerns it
+    int sign;
+  };
+  struct BirthEvent {
+    Birth<D> birth;
+    int sign;
+  };
+  [[nodiscard]] std::vector<LookEvent> take_looks() { return std::exchange(looks_, {}); }
+  [[nodiscard]] std::vector<BirthEvent> take_births() { return std::exchange(births_, {}); }
+  /// The questions whose answers may have changed; some more than once.
+  [[nodiscard]] std::vector<std::uint32_t> take_answered() { return std::exchange(answered_, {}); }
+  /// Who was found; nobody if the question is no more.
+  [[nodiscard]] std::span<const VertexHandle> answer_to(std::uint32_t id) const {
+    const auto it = answers_.find(id);
+    if (it == answers_.end()) return {};
+    const Answer& edge = engine_.arena()[it->second];
+    return {edge.found(), edge.count};
+  }
+  /// The first fault that there is, by turn.
+  [[nodiscard]] std::optional<std::pair<Turn, Error>> first_fault() const {
+    std::optional<std::pair<Turn, std::uint32_t>> first;
+    for (const auto& [error, turn] : live_faults_) {
+      if (!first || std::pair(turn, error) < *first) first = {turn, error};
+    }
+    if (!first) return std::nullopt;
+    return std::pair(first->first, faults_[first->second]);
+  }
+
+  void retract(sac::Call& call, sac::Edge& edge) noexcept override {
+    if (edge.kind == kHandOver) {
+      const auto& e = static_cast<HandOver&>(edge);
+      births_.push_back({{(*pool_)[e.vertex].p, e.bucket, turn_of(call)}, -1});
+      --handed_over_;
+    } else if (edge.kind == kAnswer) {
+      const auto it = answers_.find(static_cast<Answer&>(edge).id);
+      if (it == answers_.end() || it->second != sac::Arena::ref(static_cast<Answer&>(edge))) return;
+      answered_.push_back(it->first);
+      answers_.erase(it);
+    } else {
+      live_faults_.erase(static_cast<Fault&>(edge).error);
+    }
+  }
+
+ private:
+  static constexpr std::uint8_t kHandOver = 0;
+  static constexpr std::uint8_t kAnswer = 1;
+  static constexpr std::uint8_t kFault = 2;
+  struct HandOver : sac::Edge {
+    VertexHandle vertex;
+    std::int32_t bucket;
+  };
+  struct Answer : sac::Edge {
+    std::uint32_t id;
+    std::uint32_t count;
+    [[nodiscard]] VertexHandle* found() noexcept {
+      return reinterpret_cast<VertexHandle*>(this + 1);
+    }
+    [[nodiscard]] const VertexHandle* found() const noexcept {
+      return reinterpret_cast<const VertexHandle*>(this + 1);
+    }
+  };
+  struct Fault : sac::Edge {
+    std::uint32_t error;
+  };
+
+  // For one event more, and for each of `live` to be taken back, which must not allocate.
+  template <class Event>
+  static void make_room(std::vector<Event>& events, std::size_t live) {
+    const std::size_t needed = events.size() + live + 1;
+    if (events.capacity() < needed) events.reserve(2 * needed);
+  }
+  [[nodiscard]] Box<D> area_of(const Vertex<D>& center, const Observation<D>& o) const noexcept {
+    const Box<D> reach = o.reach.box();
+    const double slack = side_ * 0x1p-46;  // sums are rounded
+    Box<D> area;
+    for (int i = 0; i < D; ++i) {
+      area.lo[i] = center.p[i] + reach.lo[i] * side_ - slack;
+      area.hi[i] = center.p[i] + reach.hi[i] * side_ + slack;
+    }
+    return area;
+  }
+  [[nodiscard]] bool is_inside(const Box<D>& area) const noexcept {
+    return all_.owns(self_, area.lo) && all_.owns(self_, area.hi);
+  }
+
+  sac::Engine& engine_;
+  const Territories<D>& all_;
+  std::size_t self_;
+  double side_;
+  std::uint8_t id_;
+  const VertexPool<D>* pool_ = nullptr;
+  std::uint64_t quadtree_ = 0, stars_ = 0;
+  std::unordered_map<sac::Handle, std::pair<Look<D>, Box<D>>> crossing_;
+  std::vector<LookEvent> looks_;
+  std::size_t handed_over_ = 0;
+  std::vector<BirthEvent> births_;
+  std::unordered_map<std::uint32_t, sac::Ref<Answer>> answers_;
+  std::vector<std::uint32_t> answered_;
+  std::vector<Error> faults_;
+  std::unordered_map<std::uint32_t, Turn> live_faults_;
+};
+
+}  // namespace mesher::detail
