@@ -224,6 +224,20 @@ void VertexIndex<sac::Scope, D>::begin_questions() {
 }
 
 template <int D>
+void VertexIndex<sac::Scope, D>::keep_reading(const std::vector<VertexHandle>& touched) {
+  if (live_ == nullptr) return;
+  for (const VertexHandle h : touched) {
+    const Vertex<D>& v = pool_[h];
+    if (v.alive == live_->has(v)) continue;
+    if (!v.alive) {
+      live_->remove(v);
+    } else if (!live_->insert(v)) {
+      fail_coincident(v.p);
+    }
+  }
+}
+
+template <int D>
 void VertexIndex<sac::Scope, D>::join(const Vertex<D>& v) {
   if (reads() && !live_->insert(v)) fail_coincident(v.p);
 }

@@ -172,6 +172,11 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
 
   /// In a first run: cells are asked for from here on. All records are, or will be, vertices.
   void begin_questions();
+  /// Of a tile, before the parts of its first run: the cells of these are read from here on.
+  void begin_reading() { live_ = LiveTriangulation<D>::of(pool_, 0, [] {}, Of::vertices); }
+  /// Between the parts: these may have come or gone since.
+  void keep_reading(const std::vector<VertexHandle>& touched);
+  void end_reading() noexcept { live_.reset(); }
   /// Whether the quadtree is searched: in updates.
   [[nodiscard]] static constexpr bool searches() noexcept { return true; }
 
@@ -227,6 +232,11 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
 
   /// v's star, as its cell was written down by the call that computed it.
   [[nodiscard]] std::span<const std::uint32_t> ring(const Vertex<D>& v) const;
+
+  /// Who an observation saw.
+  [[nodiscard]] std::span<const std::uint32_t> seen_by(const Observation& o) const noexcept {
+    return observers_.neighbours(o);
+  }
 
   /// Since the last commit: vertices that may have come or gone, and stars that went and came.
   struct Log {

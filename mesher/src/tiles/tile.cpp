@@ -61,12 +61,14 @@ void Tile<D>::receive(std::size_t from, const std::vector<Message<D>>& messages)
     dirty_ = true;
     switch (m.kind) {
       case Kind::ask:
+        ++counts_.questions;
         ask(who, m.look);
         break;
       case Kind::end:
         end(who, m.look);
         break;
       case Kind::arrive:
+        ++(m.birth.bucket < 0 ? counts_.seen : counts_.born);
         arrived(who, m.birth);
         break;
       case Kind::depart:
@@ -122,17 +124,23 @@ void Tile<D>::departed(std::uint32_t from, const Birth<D>& birth) {
 template <int D>
 void Tile<D>::run_quadtree() {
   dirty_ = false;
-  engine_->template run<detail::run_quadtree<D>>();
+  counts_.run += engine_->template run<detail::run_quadtree<D>>().executed;
+}
+
+template <int D>
+void Tile<D>::begin_questions() {
+  world_->vertices.begin_reading();
 }
 
 template <int D>
 void Tile<D>::run_part(int part) {
-  engine_->template run<detail::run_part<D>>(part);
+  counts_.run += engine_->template run<detail::run_part<D>>(part).executed;
 }
 
 template <int D>
 void Tile<D>::run_stars() {
-  engine_->template run<detail::run_stars<D>>();
+  counts_.run += engine_->template run<detail::run_stars<D>>().executed;
+  world_->vertices.end_reading();
 }
 
 template <int D>
@@ -145,7 +153,7 @@ int Tile<D>::next_part(int part) const noexcept {
 
 template <int D>
 void Tile<D>::propagate() {
-  engine_->propagate();
+  counts_.again += engine_->propagate().executed;
   dirty_ = false;
 }
 
@@ -155,22 +163,45 @@ template <int D>
 std::vector<Message<D>> Tile<D>::collect(Changes* changes) {
   std::vector<Message<D>> out;
   const auto log = world_->vertices.log();
-  collect_looks(out);
+  Doubtful doubtful(askers_.size());
+  for (const VertexHandle h : log.touched) {
+    for (std::size_t t = 0; t < askers_.size(); ++t) {
+      if (askers_[t].told.count(h) != 0) doubtful[t].push_back(h);
+    }
+  }
+  collect_looks(out, doubtful);
   collect_births(out);
-  collect_answers(log.touched, out);
+  collect_answers(doubtful);
+  tell(doubtful, out);
   if (changes != nullptr) collect_changes(*changes);
+  world_->vertices.keep_reading(log.touched);
   world_->vertices.commit();
   return out;
 }
 
-// Looks that came and went, or went and came, are as they were.
+// Who is found for a tile, or bounds what it is asked for.
 template <int D>
-void Tile<D>::collect_looks(std::vector<Message<D>>& out) {
+void Tile<D>::note(std::size_t tile, VertexHandle h, Doubtful& doubtful) {
+  const Vertex<D>& v = world_->vertices.pool()[h];
+  if (v.boundary || !border_->owns(v.p)) return;
+  if (askers_[tile].told.try_emplace(h).second) doubtful[tile].push_back(h);
+}
+
+// Looks that came and went, or went and came, are as they were. Who is asked is told, too, whom the
+// look has seen here: it need not look behind these.
+template <int D>
+void Tile<D>::collect_looks(std::vector<Message<D>>& out, Doubtful& doubtful) {
   using Kind = typename Message<D>::Kind;
   std::map<std::pair<std::uint32_t, Look<D>>, int> changed;
   for (const auto& e : border_->take_looks()) {
+    const bool is_new = e.sign > 0 && border_->is_there(e);
     all_.for_each_met(e.area, [&](std::size_t tile) {
-      if (tile != self_) changed[{static_cast<std::uint32_t>(tile), e.look}] += e.sign;
+      if (tile == self_) return;
+      changed[{static_cast<std::uint32_t>(tile), e.look}] += e.sign;
+      if (!is_new) return;
+      for (const std::uint32_t h : world_->vertices.seen_by(*e.seen)) {
+        if (h != 0 && h < CellOf<D>::kVirtual) note(tile, h, doubtful);
+      }
     });
   }
   for (const auto& [where, sum] : changed) {
@@ -210,28 +241,22 @@ std::optional<Turn> Tile<D>::birth_for(std::uint32_t asker, const Vertex<D>& v) 
 }
 
 template <int D>
-void Tile<D>::collect_answers(const std::vector<VertexHandle>& touched,
-                              std::vector<Message<D>>& out) {
-  using Kind = typename Message<D>::Kind;
-  const auto& pool = world_->vertices.pool();
-  std::vector<std::vector<VertexHandle>> doubtful(askers_.size());
-  for (const VertexHandle h : touched) {
-    for (std::size_t t = 0; t < askers_.size(); ++t) {
-      if (askers_[t].told.count(h) != 0) doubtful[t].push_back(h);
-    }
-  }
+void Tile<D>::collect_answers(Doubtful& doubtful) {
   for (const std::uint32_t id : border_->take_answered()) {
     const auto it = questions_.find(id);
     if (it == questions_.end()) continue;  // looked at already, and gone
     const Question& q = it->second;
-    for (const VertexHandle h : border_->answer_to(id)) {
-      if (!border_->owns(pool[h].p) || pool[h].boundary) continue;
-      if (askers_[q.from].told.try_emplace(h).second) doubtful[q.from].push_back(h);
-    }
+    for (const VertexHandle h : border_->answer_to(id)) note(q.from, h, doubtful);
     const auto still = askers_[q.from].questions.find(q.look);
     const bool is_asked = still != askers_[q.from].questions.end() && still->second == id;
     if (!is_asked) questions_.erase(it);
   }
+}
+
+template <int D>
+void Tile<D>::tell(Doubtful& doubtful, std::vector<Message<D>>& out) {
+  using Kind = typename Message<D>::Kind;
+  const auto& pool = world_->vertices.pool();
   for (std::size_t t = 0; t < askers_.size(); ++t) {
     auto& some = doubtful[t];
     std::sort(some.begin(), some.end(),

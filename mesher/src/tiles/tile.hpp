@@ -32,6 +32,15 @@ struct Message {
   Birth<D> birth;  // arrive, depart
 };
 
+/// What a tile has done so far.
+struct TileCounts {
+  std::uint64_t run = 0;        // calls of a first run
+  std::uint64_t again = 0;      // calls that ran, or ran again, to bring it up to date
+  std::uint64_t questions = 0;  // asked by others
+  std::uint64_t seen = 0;       // vertices of others that came to be seen
+  std::uint64_t born = 0;       // vertices of its own that others gave birth to
+};
+
 template <int D>
 class Tile {
  public:
@@ -56,6 +65,7 @@ class Tile {
 
   /// The parts of a first run: points are located; parts 0 to parts() - 1, by buckets; stars.
   void run_quadtree();
+  void begin_questions();
   void run_part(int part);
   void run_stars();
   [[nodiscard]] int parts() const noexcept { return static_cast<int>(world_->parts.size()); }
@@ -73,6 +83,7 @@ class Tile {
 
   [[nodiscard]] const World<sac::Scope, D>& world() const noexcept { return *world_; }
   [[nodiscard]] const TileBorder<D>& border() const noexcept { return *border_; }
+  [[nodiscard]] const TileCounts& counts() const noexcept { return counts_; }
   [[nodiscard]] const sac::Engine& engine() const noexcept { return *engine_; }
   void check_invariants() const;
 
@@ -102,9 +113,12 @@ class Tile {
   void end(std::uint32_t from, const Look<D>& look);
   void arrived(std::uint32_t from, const Birth<D>& birth);
   void departed(std::uint32_t from, const Birth<D>& birth);
-  void collect_looks(std::vector<Message<D>>& out);
+  using Doubtful = std::vector<std::vector<VertexHandle>>;  // what a tile may have to be told
+  void collect_looks(std::vector<Message<D>>& out, Doubtful& doubtful);
   void collect_births(std::vector<Message<D>>& out);
-  void collect_answers(const std::vector<VertexHandle>& touched, std::vector<Message<D>>& out);
+  void collect_answers(Doubtful& doubtful);
+  void note(std::size_t tile, VertexHandle h, Doubtful& doubtful);
+  void tell(Doubtful& doubtful, std::vector<Message<D>>& out);
   [[nodiscard]] std::optional<Turn> birth_for(std::uint32_t asker, const Vertex<D>& v) const;
   void collect_changes(Changes& changes) const;
 
@@ -114,6 +128,7 @@ class Tile {
   std::unique_ptr<TileBorder<D>> border_;
   std::unique_ptr<World<sac::Scope, D>> world_;
   bool dirty_ = false;
+  TileCounts counts_;
   std::vector<Asked> asked_;   // by tile
   std::vector<Asker> askers_;  // by tile
   std::unordered_map<std::uint32_t, Question> questions_;

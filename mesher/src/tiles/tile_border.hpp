@@ -89,13 +89,13 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     const Look<D> look{center.p, radius, turn_of(engine_.call(o.call))};
     crossing_.emplace(engine_.arena().handle_of(&o), std::pair{look, area});
     make_room(looks_, crossing_.size());
-    looks_.push_back({look, area, 1});
+    looks_.push_back({look, area, &o, 1});
   }
   void forgot(const Vertex<D>& center, const Observation<D>& o) noexcept override {
     if (crossing_.empty() || is_inside(area_of(center, o))) return;
     const auto it = crossing_.find(engine_.arena().handle_of(&o));
     if (it == crossing_.end()) return;
-    looks_.push_back({it->second.first, it->second.second, -1});
+    looks_.push_back({it->second.first, it->second.second, &o, -1});
     crossing_.erase(it);
   }
 
@@ -104,6 +104,7 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
   struct LookEvent {
     Look<D> look;
     Box<D> area;  // beyond which nothing concerns it
+    const Observation<D>* seen;
     int sign;
   };
   struct BirthEvent {
@@ -111,6 +112,11 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     int sign;
   };
   [[nodiscard]] std::vector<LookEvent> take_looks() { return std::exchange(looks_, {}); }
+  /// Whether the observation of a look is still there.
+  [[nodiscard]] bool is_there(const LookEvent& e) const {
+    const auto it = crossing_.find(engine_.arena().handle_of(e.seen));
+    return it != crossing_.end() && it->second.first == e.look;
+  }
   [[nodiscard]] std::vector<BirthEvent> take_births() { return std::exchange(births_, {}); }
   /// The questions whose answers may have changed; some more than once.
   [[nodiscard]] std::vector<std::uint32_t> take_answered() { return std::exchange(answered_, {}); }

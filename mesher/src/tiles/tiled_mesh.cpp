@@ -112,6 +112,7 @@ void TiledMesh<D>::first_run(const std::vector<Point<D>>& points) {
     for (const auto& tile : tiles_) next = std::min(next, tile->next_part(part));
     return next;
   };
+  for_each_tile([&](std::size_t t) { tiles_[t]->begin_questions(); });
   const int parts = tiles_[0]->parts();
   for (int done = 0; done < parts;) {  // those in which nothing waits run with the next one
     const int first = done;

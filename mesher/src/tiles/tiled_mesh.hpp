@@ -18,11 +18,10 @@
 namespace mesher::detail {
 
 /// How tiles came to agree.
-struct TileCounts {
-  std::uint64_t rounds = 0;    // of messages
-  std::uint64_t messages = 0;  // between tiles
+struct Exchanges {
+  std::uint64_t rounds = 0;
+  std::uint64_t messages = 0;
   std::uint64_t horizons = 0;  // of a first run
-  std::uint64_t calls = 0;     // executed
 };
 
 template <int D>
@@ -37,7 +36,7 @@ class TiledMesh {
   void update(const std::vector<Point<D>>& gone, const std::vector<Point<D>>& come);
 
   [[nodiscard]] Mesh<D> mesh() const;
-  [[nodiscard]] const TileCounts& counts() const noexcept { return counts_; }
+  [[nodiscard]] const Exchanges& counts() const noexcept { return counts_; }
   [[nodiscard]] std::size_t tiles() const noexcept { return tiles_.size(); }
   [[nodiscard]] const Tile<D>& tile(std::size_t t) const { return *tiles_[t]; }
   void check_invariants() const;
@@ -59,7 +58,7 @@ class TiledMesh {
   std::unordered_map<Point<D>, VertexHandle, TurnHash<D>> handles_;
   std::vector<std::optional<int>> levels_;    // by handle, as tiles have been told
   std::vector<std::vector<Message<D>>> out_;  // by tile
-  TileCounts counts_;
+  Exchanges counts_;
 };
 
 }  // namespace mesher::detail
