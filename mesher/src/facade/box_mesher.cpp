@@ -6,11 +6,13 @@
 
 #include "facade/reentry_guard.hpp"
 #include "facade/state.hpp"
+#include "facade/tiled_state.hpp"
 #include "geometry/input_point.hpp"
 #include "live/live_arrays.hpp"
 #include "mesher/predicates.hpp"
 #include "program/meter.hpp"
 #include "program/space_input.hpp"
+#include "rules/mesh_box.hpp"
 #include "text/id_text.hpp"
 
 namespace mesher {
@@ -32,7 +34,7 @@ struct BoxMesher<D>::Impl {
   using State = detail::State<D>;
 
   explicit Impl(const Options<D>& o)
-      : options(o), state(std::make_unique<State>(o)), box(state->box()), pending(box) {
+      : options(o), state(std::make_unique<State>(o)), box(detail::mesh_box(o)), pending(box) {
     predicates::self_test();
   }
 
@@ -56,7 +58,7 @@ struct BoxMesher<D>::Impl {
   Change<D> update(const RunControl& control, const Accept& accept);
 
   Options<D> options;            // with the limits of the last update
-  std::unique_ptr<State> state;  // of the last update
+  std::unique_ptr<detail::AnyState<D>> state;  // of the last update
   detail::MeshBox<D> box;
   Pending pending;
   detail::StagedLines lines;
@@ -223,8 +225,15 @@ Change<D> BoxMesher<D>::Impl::run(const RunControl& control, const LastWord& acc
     return state->propagate({pending.sorted(), lines, polygons, pending_limits.edit(options)},
                             control, accept);
   }
-  auto fresh = std::make_unique<State>(pending_options());
-  Change<D> change = fresh->first_run({pending.sorted(), lines, polygons}, control, accept);
+  const Options<D> now = pending_options();
+  detail::Edits<D> edits{pending.sorted(), lines, polygons};
+  std::unique_ptr<detail::AnyState<D>> fresh;
+  if (detail::may_be_tiled(now, edits)) {
+    fresh = std::make_unique<detail::TiledState<D>>(now);
+  } else {
+    fresh = std::make_unique<State>(now);
+  }
+  Change<D> change = fresh->first_run(std::move(edits), control, accept);
   state = std::move(fresh);
   return change;
 }

@@ -1,5 +1,5 @@
 // A tile's runs, and what it tells others.
-#include "tiles/tile.hpp"
+#include "tiles/tile_mesher.hpp"
 
 #include <algorithm>
 #include <map>
@@ -11,7 +11,7 @@
 namespace mesher::detail {
 
 template <int D>
-Tile<D>::Tile(const Options<D>& options, const MeshBox<D>& box, const Territories<D>& all,
+TileMesher<D>::TileMesher(const Options<D>& options, const MeshBox<D>& box, const Territories<D>& all,
               std::size_t self)
     : all_(all),
       self_(self),
@@ -23,52 +23,48 @@ Tile<D>::Tile(const Options<D>& options, const MeshBox<D>& box, const Territorie
   border_->attach(world_->vertices.pool(), world_->quadtree.number(), world_->stars.number());
   world_->vertices.set_listener(border_.get());
   world_->most_records = ~std::size_t{0};  // all tiles together have a limit
+  world_->vertices.pool().for_each([&](const Vertex<D>& v) { own_vertices_ += border_->owns(v.p); });
 }
 
 template <int D>
-Tile<D>::~Tile() {
+TileMesher<D>::~TileMesher() {
   engine_.reset();  // before what its calls refer to
 }
 
 // --- Edits and messages ----------------------------------------------------------------------
 
 template <int D>
-sac::Agenda& Tile<D>::agenda(const Turn& turn) noexcept {
+sac::Agenda& TileMesher<D>::agenda(const Turn& turn) noexcept {
   if (turn.stage == Stage::quadtree) return world_->quadtree;
   if (turn.stage == Stage::stars) return world_->stars;
   return world_->steiner_at(turn.key(kKeyWidths).bucket);
 }
 
 template <int D>
-void Tile<D>::edit(const std::vector<Edit>& edits) {
-  auto& w = *world_;
+void TileMesher<D>::edit(const std::vector<Edit>& edits) {
+  const auto order = [&](const Point<D>& p, int level, bool begins) {
+    orders_.push_back({Order::Kind::locate, begins, p, {}, level, 0, 0});
+  };
   for (const Edit& e : edits) {
-    dirty_ = true;
-    const VertexRef<D> v = w.vertices.claim(e.p);
-    if (e.was) w.quadtree.template retract_from_outside<locate_known>(v, *e.was);
-    v->input = e.is.has_value();
-    if (!e.is) continue;
-    w.quadtree.template post_from_outside<locate_known>(locate_key(w.box.fixed(e.p)), v, *e.is);
+    if (e.was) order(e.p, *e.was, false);
+    if (e.is) order(e.p, *e.is, true);
   }
 }
 
 template <int D>
-void Tile<D>::receive(std::size_t from, const std::vector<Message<D>>& messages) {
+void TileMesher<D>::receive(std::size_t from, const std::vector<Message<D>>& messages) {
   using Kind = typename Message<D>::Kind;
   const auto who = static_cast<std::uint32_t>(from);
   for (const Message<D>& m : messages) {
     if (m.to != self_) continue;
-    dirty_ = true;
     switch (m.kind) {
       case Kind::ask:
-        ++counts_.questions;
         ask(who, m.look);
         break;
       case Kind::end:
         end(who, m.look);
         break;
       case Kind::arrive:
-        ++(m.birth.bucket < 0 ? counts_.seen : counts_.born);
         arrived(who, m.birth);
         break;
       case Kind::depart:
@@ -79,72 +75,114 @@ void Tile<D>::receive(std::size_t from, const std::vector<Message<D>>& messages)
 }
 
 template <int D>
-void Tile<D>::ask(std::uint32_t from, const Look<D>& look) {
+void TileMesher<D>::ask(std::uint32_t from, const Look<D>& look) {
+  ++counts_.questions;
   const std::uint32_t id = next_question_++;
-  agenda(look.turn).template post_from_outside<across>(
-      look.turn.key(kKeyWidths), world_->vertices.claim(look.p), look.radius, id);
   questions_.emplace(id, Question{from, look});
   askers_[from].questions.emplace(look, id);
+  orders_.push_back({Order::Kind::ask, true, look.p, look.turn, 0, id, look.radius});
 }
 
 template <int D>
-void Tile<D>::end(std::uint32_t from, const Look<D>& look) {
+void TileMesher<D>::end(std::uint32_t from, const Look<D>& look) {
   const auto it = askers_[from].questions.find(look);
   SAC_ENSURES(it != askers_[from].questions.end());
-  agenda(look.turn).template retract_from_outside<across>(world_->vertices.claim(look.p),
-                                                          look.radius, it->second);
+  orders_.push_back({Order::Kind::ask, false, look.p, look.turn, 0, it->second, look.radius});
   askers_[from].questions.erase(it);  // the question is kept until its answer has gone
 }
 
 template <int D>
-void Tile<D>::arrived(std::uint32_t from, const Birth<D>& birth) {
-  const VertexRef<D> v = world_->vertices.claim(birth.p);
-  const Turn& t = birth.turn;
-  agenda(t).template post_from_outside<arrive>(t.key(kKeyWidths), v, birth.bucket,
-                                               static_cast<std::uint32_t>(t.stage), t.rank, t.order,
-                                               from);
-  from_.emplace(birth.p, From{t, from});
+void TileMesher<D>::arrived(std::uint32_t from, const Birth<D>& birth) {
+  ++(birth.bucket < 0 ? counts_.seen : counts_.born);
+  from_.emplace(birth.p, From{birth.turn, from});
+  orders_.push_back({Order::Kind::arrive, true, birth.p, birth.turn, birth.bucket, from, 0});
 }
 
 template <int D>
-void Tile<D>::departed(std::uint32_t from, const Birth<D>& birth) {
-  const VertexRef<D> v = world_->vertices.claim(birth.p);
-  const Turn& t = birth.turn;
-  agenda(t).template retract_from_outside<arrive>(
-      v, birth.bucket, static_cast<std::uint32_t>(t.stage), t.rank, t.order, from);
+void TileMesher<D>::departed(std::uint32_t from, const Birth<D>& birth) {
   const auto [first, last] = from_.equal_range(birth.p);
-  const auto it = std::find_if(
-      first, last, [&](const auto& f) { return f.second.turn == t && f.second.tile == from; });
+  const auto it = std::find_if(first, last, [&](const auto& f) {
+    return f.second.turn == birth.turn && f.second.tile == from;
+  });
   SAC_ENSURES(it != last);
   from_.erase(it);
+  orders_.push_back({Order::Kind::arrive, false, birth.p, birth.turn, birth.bucket, from, 0});
+}
+
+template <int D>
+void TileMesher<D>::locate(const Order& order, VertexRef<D> v) {
+  Vertex<D>* const record = v.v;
+  engine_->begin_edit();
+  engine_->on_rollback([record, was = bool{v->input}] { record->input = was; });
+  v->input = order.begins;
+  if (order.begins) {
+    world_->quadtree.template post_from_outside<locate_known>(locate_key(world_->box.fixed(v->p)),
+                                                              v, order.number);
+  } else {
+    world_->quadtree.template retract_from_outside<locate_known>(v, order.number);
+  }
+}
+
+template <int D>
+void TileMesher<D>::carry_out(const Order& order) {
+  const VertexRef<D> v = world_->vertices.claim(order.p);
+  if (order.kind == Order::Kind::locate) return locate(order, v);
+  const Turn& t = order.turn;
+  sac::Agenda& at = agenda(t);
+  const auto stage = static_cast<std::uint32_t>(t.stage);
+  if (order.kind == Order::Kind::ask) {
+    order.begins ? at.template post_from_outside<across>(t.key(kKeyWidths), v, order.radius,
+                                                         order.name)
+                 : at.template retract_from_outside<across>(v, order.radius, order.name);
+  } else {
+    order.begins ? at.template post_from_outside<arrive>(t.key(kKeyWidths), v, order.number, stage,
+                                                         t.rank, t.order, order.name)
+                 : at.template retract_from_outside<arrive>(v, order.number, stage, t.rank, t.order,
+                                                            order.name);
+  }
+}
+
+template <int D>
+void TileMesher<D>::post_orders() {
+  engine_->edit_together([&] {
+    for (const Order& order : orders_) carry_out(order);
+  });
+}
+
+template <int D>
+void TileMesher<D>::watch(std::function<bool(std::uint64_t)> report) {
+  constexpr std::uint64_t kEvery = RunControl::kCallsBetween;
+  engine_->set_progress([report = std::move(report)](const sac::Progress&) { return report(kEvery); },
+                        kEvery);
 }
 
 // --- Runs ------------------------------------------------------------------------------------
 
 template <int D>
-void Tile<D>::run_quadtree() {
-  dirty_ = false;
+void TileMesher<D>::run_quadtree() {
+  post_orders();
+  orders_.clear();
   counts_.run += engine_->template run<detail::run_quadtree<D>>().executed;
 }
 
 template <int D>
-void Tile<D>::begin_questions() {
+void TileMesher<D>::begin_questions() {
   world_->vertices.begin_reading();
 }
 
 template <int D>
-void Tile<D>::run_part(int part) {
+void TileMesher<D>::run_part(int part) {
   counts_.run += engine_->template run<detail::run_part<D>>(part).executed;
 }
 
 template <int D>
-void Tile<D>::run_stars() {
+void TileMesher<D>::run_stars() {
   counts_.run += engine_->template run<detail::run_stars<D>>().executed;
   world_->vertices.end_reading();
 }
 
 template <int D>
-int Tile<D>::next_part(int part) const noexcept {
+int TileMesher<D>::next_part(int part) const noexcept {
   while (part < parts() && world_->parts[static_cast<std::size_t>(part)]->waiting_calls() == 0) {
     ++part;
   }
@@ -152,15 +190,16 @@ int Tile<D>::next_part(int part) const noexcept {
 }
 
 template <int D>
-void Tile<D>::propagate() {
+void TileMesher<D>::propagate() {
+  post_orders();
   counts_.again += engine_->propagate().executed;
-  dirty_ = false;
+  orders_.clear();
 }
 
 // --- What is new -----------------------------------------------------------------------------
 
 template <int D>
-std::vector<Message<D>> Tile<D>::collect(Changes* changes) {
+std::vector<Message<D>> TileMesher<D>::collect(Changes* changes) {
   std::vector<Message<D>> out;
   const auto log = world_->vertices.log();
   Doubtful doubtful(askers_.size());
@@ -174,6 +213,7 @@ std::vector<Message<D>> Tile<D>::collect(Changes* changes) {
   collect_answers(doubtful);
   tell(doubtful, out);
   if (changes != nullptr) collect_changes(*changes);
+  count_own(log.touched);
   world_->vertices.keep_reading(log.touched);
   world_->vertices.commit();
   return out;
@@ -181,7 +221,7 @@ std::vector<Message<D>> Tile<D>::collect(Changes* changes) {
 
 // Who is found for a tile, or bounds what it is asked for.
 template <int D>
-void Tile<D>::note(std::size_t tile, VertexHandle h, Doubtful& doubtful) {
+void TileMesher<D>::note(std::size_t tile, VertexHandle h, Doubtful& doubtful) {
   const Vertex<D>& v = world_->vertices.pool()[h];
   if (v.boundary || !border_->owns(v.p)) return;
   if (askers_[tile].told.try_emplace(h).second) doubtful[tile].push_back(h);
@@ -190,7 +230,7 @@ void Tile<D>::note(std::size_t tile, VertexHandle h, Doubtful& doubtful) {
 // Looks that came and went, or went and came, are as they were. Who is asked is told, too, whom the
 // look has seen here: it need not look behind these.
 template <int D>
-void Tile<D>::collect_looks(std::vector<Message<D>>& out, Doubtful& doubtful) {
+void TileMesher<D>::collect_looks(std::vector<Message<D>>& out, Doubtful& doubtful) {
   using Kind = typename Message<D>::Kind;
   std::map<std::pair<std::uint32_t, Look<D>>, int> changed;
   for (const auto& e : border_->take_looks()) {
@@ -218,7 +258,7 @@ void Tile<D>::collect_looks(std::vector<Message<D>>& out, Doubtful& doubtful) {
 }
 
 template <int D>
-void Tile<D>::collect_births(std::vector<Message<D>>& out) {
+void TileMesher<D>::collect_births(std::vector<Message<D>>& out) {
   using Kind = typename Message<D>::Kind;
   std::map<Birth<D>, int> changed;
   for (const auto& e : border_->take_births()) changed[e.birth] += e.sign;
@@ -231,7 +271,7 @@ void Tile<D>::collect_births(std::vector<Message<D>>& out) {
 
 // When v was born, unless that was in the asking tile, which knows.
 template <int D>
-std::optional<Turn> Tile<D>::birth_for(std::uint32_t asker, const Vertex<D>& v) const {
+std::optional<Turn> TileMesher<D>::birth_for(std::uint32_t asker, const Vertex<D>& v) const {
   if (!v.alive || v.boundary) return std::nullopt;
   const Turn turn = border_->turn_of(engine_->call_at(v.presence.birth()));
   const auto [first, last] = from_.equal_range(v.p);
@@ -241,7 +281,7 @@ std::optional<Turn> Tile<D>::birth_for(std::uint32_t asker, const Vertex<D>& v) 
 }
 
 template <int D>
-void Tile<D>::collect_answers(Doubtful& doubtful) {
+void TileMesher<D>::collect_answers(Doubtful& doubtful) {
   for (const std::uint32_t id : border_->take_answered()) {
     const auto it = questions_.find(id);
     if (it == questions_.end()) continue;  // looked at already, and gone
@@ -254,7 +294,7 @@ void Tile<D>::collect_answers(Doubtful& doubtful) {
 }
 
 template <int D>
-void Tile<D>::tell(Doubtful& doubtful, std::vector<Message<D>>& out) {
+void TileMesher<D>::tell(Doubtful& doubtful, std::vector<Message<D>>& out) {
   using Kind = typename Message<D>::Kind;
   const auto& pool = world_->vertices.pool();
   for (std::size_t t = 0; t < askers_.size(); ++t) {
@@ -277,18 +317,36 @@ void Tile<D>::tell(Doubtful& doubtful, std::vector<Message<D>>& out) {
 }
 
 template <int D>
-void Tile<D>::collect_changes(Changes& changes) const {
+void TileMesher<D>::count_own(const std::vector<VertexHandle>& touched) noexcept {
+  for (const VertexHandle h : touched) {
+    const Vertex<D>& v = world_->vertices.pool()[h];
+    if (v.alive == v.committed || !border_->owns(v.p)) continue;
+    v.alive ? ++own_vertices_ : --own_vertices_;
+  }
+}
+
+template <int D>
+std::size_t TileMesher<D>::own_simplices() const {
+  std::size_t count = 0;
+  const auto& pool = world_->vertices.pool();
+  pool.for_each([&](const Vertex<D>& v) {
+    if (!v.alive || !border_->owns(v.p)) return;
+    for_each_own_simplex(pool, v, world_->vertices.ring(v), [&](const auto&) { ++count; });
+  });
+  return count;
+}
+
+template <int D>
+void TileMesher<D>::collect_changes(Changes& changes) const {
   const auto& pool = world_->vertices.pool();
   const auto log = world_->vertices.log();
   for (const VertexHandle h : log.touched) {
     const Vertex<D>& v = pool[h];
     if (!border_->owns(v.p)) continue;
-    if (v.committed && (!v.alive || v.kind() != v.committed_kind)) {
-      changes.vertices_gone.emplace_back(v.p, v.committed_kind);
-    }
-    if (v.alive && (!v.committed || v.kind() != v.committed_kind)) {
-      changes.vertices_come.emplace_back(v.p, v.kind());
-    }
+    const bool same = v.alive == v.committed && v.kind() == v.committed_kind;
+    if (same) continue;
+    if (v.committed) changes.vertices.push_back({v.p, v.committed_kind, false});
+    if (v.alive) changes.vertices.push_back({v.p, v.kind(), true});
   }
   const auto add = [&](const auto& stars, auto& simplices) {
     for (const auto& star : stars) {
@@ -304,14 +362,20 @@ void Tile<D>::collect_changes(Changes& changes) const {
 }
 
 template <int D>
-void Tile<D>::check_invariants() const {
+std::size_t TileMesher<D>::bytes() const {
+  const auto& vertices = world_->vertices;
+  return engine_->bytes() + vertices.pool().bytes() + vertices.tree().bytes();
+}
+
+template <int D>
+void TileMesher<D>::check_invariants() const {
   engine_->check_invariants();
   world_->vertices.check_invariants();
 }
 
-template class Tile<2>;
+template class TileMesher<2>;
 #ifndef MESHER_PLANE_ONLY
-template class Tile<3>;
+template class TileMesher<3>;
 #endif
 
 }  // namespace mesher::detail

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -42,28 +43,33 @@ struct TileCounts {
 };
 
 template <int D>
-class Tile {
+class TileMesher {
  public:
   /// `level`: of a point, the deepest one at which it is crowded among those of all tiles.
   struct Edit {
     Point<D> p;
     std::optional<int> was, is;  // nothing: it is not there
+    [[nodiscard]] Edit inverse() const { return {p, is, was}; }
   };
 
-  Tile(const Options<D>& options, const MeshBox<D>& box, const Territories<D>& all,
+  TileMesher(const Options<D>& options, const MeshBox<D>& box, const Territories<D>& all,
        std::size_t self);
-  Tile(const Tile&) = delete;
-  Tile& operator=(const Tile&) = delete;
-  ~Tile();
+  TileMesher(const TileMesher&) = delete;
+  TileMesher& operator=(const TileMesher&) = delete;
+  ~TileMesher();
 
-  /// Makes edits of points of the territory; they are run next.
+  /// Notes edits of points of the territory, and the messages of tile `from`, for the next run.
+  /// What throws leaves the tile good for nothing.
   void edit(const std::vector<Edit>& edits);
-  /// The messages of tile `from`; likewise.
   void receive(std::size_t from, const std::vector<Message<D>>& messages);
+  /// Tells report(calls) of calls that have run since, some thousand times a second; if it returns
+  /// false the run ends with sac::Cancelled.
+  void watch(std::function<bool(std::uint64_t)> report);
   /// Whether something waits to be run.
-  [[nodiscard]] bool is_dirty() const noexcept { return dirty_; }
+  [[nodiscard]] bool is_dirty() const noexcept { return !orders_.empty(); }
 
-  /// The parts of a first run: points are located; parts 0 to parts() - 1, by buckets; stars.
+  /// The parts of a first run: points are located; parts 0 to parts() - 1, by buckets; stars. What
+  /// throws leaves the tile good for nothing.
   void run_quadtree();
   void begin_questions();
   void run_part(int part);
@@ -71,20 +77,31 @@ class Tile {
   [[nodiscard]] int parts() const noexcept { return static_cast<int>(world_->parts.size()); }
   /// The first part from `part` on in which calls wait.
   [[nodiscard]] int next_part(int part) const noexcept;
-  /// Brings what has run up to date with edits and messages.
+  /// Brings what has run up to date with what was noted. What throws leaves everything as it was;
+  /// what was noted waits for another try.
   void propagate();
 
-  /// What is new for others since the last call; adds to `changes` what is new in the mesh.
+  /// What is new for others since the last call; adds to `changes` what is new in the mesh. What
+  /// throws leaves the tile good for nothing.
   struct Changes {
-    std::vector<std::pair<Point<D>, VertexKind>> vertices_come, vertices_gone;
+    struct Event {
+      Point<D> p;
+      VertexKind kind;
+      bool came;
+    };
+    std::vector<Event> vertices;  // in their order
     std::vector<std::array<Point<D>, D + 1>> simplices_come, simplices_gone;
   };
   [[nodiscard]] std::vector<Message<D>> collect(Changes* changes);
 
+  /// Vertices of the territory, and simplices that one of them outputs.
+  [[nodiscard]] std::size_t own_vertices() const noexcept { return own_vertices_; }
+  [[nodiscard]] std::size_t own_simplices() const;
   [[nodiscard]] const World<sac::Scope, D>& world() const noexcept { return *world_; }
   [[nodiscard]] const TileBorder<D>& border() const noexcept { return *border_; }
   [[nodiscard]] const TileCounts& counts() const noexcept { return counts_; }
   [[nodiscard]] const sac::Engine& engine() const noexcept { return *engine_; }
+  [[nodiscard]] std::size_t bytes() const;
   void check_invariants() const;
 
  private:
@@ -92,6 +109,16 @@ class Tile {
   struct Question {
     std::uint32_t from;
     Look<D> look;
+  };
+  struct Order {  // what is to be posted, or taken back
+    enum class Kind : std::uint8_t { locate, ask, arrive };
+    Kind kind;
+    bool begins;
+    Point<D> p;
+    Turn turn;
+    int number;          // locate: the level; arrive: the bucket
+    std::uint32_t name;  // ask: the question; arrive: from which tile
+    double radius;
   };
   struct Asked {  // of another tile
     std::unordered_map<Look<D>, std::uint32_t, TurnHash<D>> looks;  // how often
@@ -109,6 +136,9 @@ class Tile {
   };
 
   [[nodiscard]] sac::Agenda& agenda(const Turn& turn) noexcept;
+  void post_orders();
+  void carry_out(const Order& order);
+  void locate(const Order& order, VertexRef<D> v);
   void ask(std::uint32_t from, const Look<D>& look);
   void end(std::uint32_t from, const Look<D>& look);
   void arrived(std::uint32_t from, const Birth<D>& birth);
@@ -120,6 +150,7 @@ class Tile {
   void note(std::size_t tile, VertexHandle h, Doubtful& doubtful);
   void tell(Doubtful& doubtful, std::vector<Message<D>>& out);
   [[nodiscard]] std::optional<Turn> birth_for(std::uint32_t asker, const Vertex<D>& v) const;
+  void count_own(const std::vector<VertexHandle>& touched) noexcept;
   void collect_changes(Changes& changes) const;
 
   const Territories<D>& all_;
@@ -127,7 +158,8 @@ class Tile {
   std::unique_ptr<sac::Engine> engine_;
   std::unique_ptr<TileBorder<D>> border_;
   std::unique_ptr<World<sac::Scope, D>> world_;
-  bool dirty_ = false;
+  std::vector<Order> orders_;
+  std::size_t own_vertices_ = 0;
   TileCounts counts_;
   std::vector<Asked> asked_;   // by tile
   std::vector<Asker> askers_;  // by tile

@@ -1,0 +1,90 @@
+// The tiles of a mesh, on threads: they run at once, exchange messages, and run again until there
+// are none.
+//
+// A first run settles bucket after bucket: births without what surrounds them would have others
+// that nobody needs.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "mesher/meshing.hpp"
+#include "tiles/territory.hpp"
+#include "tiles/tile_mesher.hpp"
+
+namespace mesher::detail {
+
+/// How tiles came to agree.
+struct Exchanges {
+  std::uint64_t rounds = 0;
+  std::uint64_t messages = 0;
+  std::uint64_t horizons = 0;  // of a first run
+};
+
+template <int D>
+class TiledMesher {
+ public:
+  using Edits = std::vector<std::vector<typename TileMesher<D>::Edit>>;  // by tile
+  using Changes = typename TileMesher<D>::Changes;
+
+  /// `places`: of the input's points, which say where the cuts are.
+  TiledMesher(const Options<D>& options, const MeshBox<D>& box, const std::vector<Point<D>>& places,
+        std::size_t tiles, std::size_t threads);
+
+  /// `control` is asked, on the thread of the caller, while something runs. `ask(phase, calls)`:
+  /// false if the run shall stop.
+  using Ask = std::function<bool(Phase, std::uint64_t)>;
+  /// Throws: Error, sac::Cancelled, std::bad_alloc, what `ask` throws: good for nothing then.
+  void first_run(const Edits& edits, const Ask& ask);
+  /// Makes the edits; last(changes) is called when all agree. Throws: likewise, and what `last`
+  /// throws: the edits are then taken back, by a run of their inverses. If that fails, too, every
+  /// further update throws sac::UsageError.
+  void update(const Edits& edits, const Ask& ask, const std::function<void(Changes&)>& last);
+
+  [[nodiscard]] std::size_t size() const noexcept { return tiles_.size(); }
+  [[nodiscard]] const Territories<D>& territories() const noexcept { return all_; }
+  [[nodiscard]] const TileMesher<D>& operator[](std::size_t t) const noexcept { return *tiles_[t]; }
+  [[nodiscard]] const Exchanges& exchanges() const noexcept { return exchanges_; }
+  [[nodiscard]] Mesh<D> mesh() const;
+  [[nodiscard]] std::size_t vertices() const noexcept;
+  /// Of the phases of the first run.
+  [[nodiscard]] const std::array<double, 3>& seconds() const noexcept { return seconds_; }
+  /// Calls that have run.
+  [[nodiscard]] std::uint64_t calls() const noexcept;
+  void check_invariants() const;
+
+ private:
+  template <class Act>
+  void for_each_tile(Act&& act);
+  template <class Act>
+  void run(const std::vector<std::size_t>& which, Act&& act);
+  void watch(const Ask& ask);
+  void exchange();
+  void settle(Changes* changes);
+  void require_all() const;
+  void take_back(const Edits& edits) noexcept;
+
+  Options<D> options_;
+  std::size_t threads_;
+  Territories<D> all_;
+  std::vector<std::unique_ptr<TileMesher<D>>> tiles_;
+  std::vector<std::vector<Message<D>>> out_;  // by tile
+  Exchanges exchanges_;
+  std::array<double, 3> seconds_{};
+  bool broken_ = false;
+  bool is_exact_ = true;  // what tiles know of each other is what they have said
+
+  // While `ask_` is asked.
+  Ask ask_;
+  Phase phase_ = Phase::update;
+  std::thread::id asker_;
+  std::atomic<bool> stops_ = false;
+  std::atomic<std::uint64_t> calls_ = 0;
+};
+
+}  // namespace mesher::detail
