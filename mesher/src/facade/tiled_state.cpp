@@ -31,7 +31,7 @@ void require_points_alone(const Edits<D>& edits) {
 
 template <int D>
 bool may_be_tiled(const Options<D>& options, const Edits<D>& edits) {
-  return options.threads > 1 && edits.points.size() > 1 && !edits.lines.has_edits() &&
+  return options.threads > 1 && options.rule == Rule::radius_edge && edits.points.size() > 1 && !edits.lines.has_edits() &&
          !edits.polygons.has_edits() && !options.record_weights && !has_slivers(options) &&
          !LimitsOf<D>(options, mesh_box(options)).any();
 }

@@ -51,12 +51,19 @@ void ComputeNN::operator()(S& s, VertexRef<D> v, int b) const {
 struct Filled {
   bool inserts = false;  // vertices
   bool waits = false;    // for leaves that are cut
+  bool fails = false;    // a gap ball cannot be filled
 };
 
+/// No vertex that Complete inserts has another nearer to it than this, in clips. (It is inserted for
+/// a length of its bucket or one before, to which it is no nearer than 1 / (gamma rho) clips.)
+inline constexpr double kFarthestIn = 0.125;
+
 /// The vertex at `point`, which fills a gap ball of v. In a tile nothing, if that is not possible:
-/// it may be otherwise when other tiles have said what they have.
+/// it may be otherwise when other tiles have said what they have. Nor if others are too near, as
+/// are two versions of one vertex, in two tiles: to refine the mesh down to their distance would
+/// take long.
 template <class S, int D>
-std::optional<VertexRef<D>> fill_at(S& s, World<S, D>& w, CellOf<D>& gaps, const Vertex<D>& v,
+std::optional<VertexRef<D>> fill_at(S& s, World<S, D>& w, CellOf<D>& gaps, const Vertex<D>& v, int b,
                                     const typename InsertionRule<D>::NewPoint& point) {
   const auto fill = [&] {
     const VertexRef<D> x = w.vertices.insert(s, point.p);
@@ -65,6 +72,8 @@ std::optional<VertexRef<D>> fill_at(S& s, World<S, D>& w, CellOf<D>& gaps, const
   };
   if (!S::kTraced || w.border == nullptr) return fill();
   try {
+    const double nearest = kFarthestIn * w.buckets().clip_radius(b);
+    if (point.nearest2 < nearest * nearest) w.fail_useless(v, v);
     return fill();
   } catch (const Error& error) {
     if constexpr (S::kTraced) w.border->fault(s, error);
@@ -86,8 +95,11 @@ Filled fill_gaps(S& s, World<S, D>& w, CellOf<D>& gaps, Staying<S, D>& stays, co
     }
     filled.inserts = filled.inserts || outcome == Outcome::yielded;
     if (outcome != Outcome::stands) continue;
-    const std::optional<VertexRef<D>> x = fill_at(s, w, gaps, v, *point);
-    if (!x) return filled;
+    const std::optional<VertexRef<D>> x = fill_at(s, w, gaps, v, b, *point);
+    if (!x) {
+      filled.fails = true;
+      return filled;
+    }
     w.require_room(s);
     gaps.cut((*x)->self);
     filled.inserts = true;
@@ -109,6 +121,7 @@ void Complete::operator()(S& s, VertexRef<D> v, int b) const {
   conform(s, stays, b);
   for (bool grows = true; grows;) {
     const Filled filled = fill_gaps(s, w, *gaps, stays, *v, b);
+    if (filled.fails) return;
     cuts = cuts || filled.waits;
     grows = filled.inserts && conform(s, stays, b);
   }

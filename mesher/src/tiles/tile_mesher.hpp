@@ -31,6 +31,10 @@ struct Message {
   std::uint32_t to;
   Look<D> look;    // ask, end
   Birth<D> birth;  // arrive, depart
+
+  [[nodiscard]] const Turn& turn() const noexcept {
+    return kind < Kind::arrive ? look.turn : birth.turn;
+  }
 };
 
 /// What a tile has done so far.

@@ -15,7 +15,7 @@ namespace mesher::detail {
 template <int D>
 TiledMesher<D>::TiledMesher(const Options<D>& options, const MeshBox<D>& box,
                 const std::vector<Point<D>>& places, std::size_t tiles, std::size_t threads)
-    : options_(options), threads_(threads), all_(places, tiles), out_(all_.size()) {
+    : options_(options), threads_(threads), all_(places, tiles), out_(all_.size()), waiting_(all_.size()) {
   for (std::size_t t = 0; t < all_.size(); ++t) {
     tiles_.push_back(std::make_unique<TileMesher<D>>(options, box, all_, t));
   }
@@ -88,16 +88,26 @@ void TiledMesher<D>::watch(const Ask& ask) {
 
 template <int D>
 void TiledMesher<D>::exchange() {
-  std::size_t messages = 0;
-  for (const auto& out : out_) messages += out.size();
-  if (messages == 0) return;
-  ++exchanges_.rounds;
-  exchanges_.messages += messages;
   is_exact_ = false;
-  for_each_tile([&](std::size_t t) {
-    for (std::size_t from = 0; from < tiles_.size(); ++from) tiles_[t]->receive(from, out_[from]);
-  });
-  for (auto& out : out_) out.clear();
+  for (std::size_t t = 0; t < tiles_.size(); ++t) {
+    for (const Message<D>& m : out_[t]) waiting_[t].add(m);
+    out_[t].clear();
+  }
+  std::optional<typename Outbox<D>::Time> first;
+  for (const auto& waiting : waiting_) {
+    if (!waiting.is_empty() && (!first || waiting.first() < *first)) first = waiting.first();
+  }
+  if (first) {
+    ++exchanges_.rounds;
+    for (std::size_t t = 0; t < tiles_.size(); ++t) {
+      waiting_[t].send_until(*first, [&](const Message<D>& m) { out_[t].push_back(m); });
+      exchanges_.messages += out_[t].size();
+    }
+    for_each_tile([&](std::size_t t) {
+      for (std::size_t from = 0; from < tiles_.size(); ++from) tiles_[t]->receive(from, out_[from]);
+    });
+    for (auto& out : out_) out.clear();
+  }
   is_exact_ = true;
 }
 

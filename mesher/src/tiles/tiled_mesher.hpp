@@ -9,8 +9,10 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "mesher/meshing.hpp"
@@ -24,6 +26,56 @@ struct Exchanges {
   std::uint64_t rounds = 0;
   std::uint64_t messages = 0;
   std::uint64_t horizons = 0;  // of a first run
+};
+
+/// The messages of a tile that wait: those of early turns are sent first, since what a tile says of
+/// later ones may change when it knows of the earlier ones. What has been said and taken back is
+/// never sent.
+template <int D>
+class Outbox {
+ public:
+  void add(const Message<D>& m) {
+    using Kind = typename Message<D>::Kind;
+    const bool begins = m.kind == Kind::ask || m.kind == Kind::arrive;
+    const auto [it, is_new] = waiting_.try_emplace(key(m), begins ? 1 : -1);
+    if (!is_new) waiting_.erase(it);  // the opposite
+  }
+  [[nodiscard]] bool is_empty() const noexcept { return waiting_.empty(); }
+  /// Of the first that waits; equal for those of one bucket.
+  using Time = std::pair<Stage, std::uint32_t>;
+  [[nodiscard]] Time first() const noexcept { return time(waiting_.begin()->first.turn); }
+  /// Calls send(message) for those until then, and forgets them.
+  template <class Send>
+  void send_until(const Time& last, Send&& send) {
+    auto it = waiting_.begin();
+    for (; it != waiting_.end() && time(it->first.turn) <= last; ++it) send(message(*it));
+    waiting_.erase(waiting_.begin(), it);
+  }
+
+ private:
+  using Kind = typename Message<D>::Kind;
+  struct Key {
+    Turn turn;
+    std::uint32_t to;
+    bool is_birth;
+    Look<D> look;
+    Birth<D> birth;
+    friend auto operator<=>(const Key&, const Key&) = default;
+  };
+  static Key key(const Message<D>& m) {
+    return {m.turn(), m.to, m.kind == Kind::arrive || m.kind == Kind::depart, m.look, m.birth};
+  }
+  static Message<D> message(const std::pair<const Key, int>& waiting) {
+    const auto& [k, sign] = waiting;
+    const Kind kind = k.is_birth ? (sign > 0 ? Kind::arrive : Kind::depart)
+                                 : (sign > 0 ? Kind::ask : Kind::end);
+    return {kind, k.to, k.look, k.birth};
+  }
+  static Time time(const Turn& turn) noexcept {
+    return {turn.stage, turn.rank >> (kKeyWidths.phase + kKeyWidths.colour)};
+  }
+
+  std::map<Key, int> waiting_;  // 1: begins, -1: ends
 };
 
 template <int D>
@@ -73,7 +125,8 @@ class TiledMesher {
   std::size_t threads_;
   Territories<D> all_;
   std::vector<std::unique_ptr<TileMesher<D>>> tiles_;
-  std::vector<std::vector<Message<D>>> out_;  // by tile
+  std::vector<std::vector<Message<D>>> out_;  // by tile: what it has said last
+  std::vector<Outbox<D>> waiting_;            // by tile: what it has said before
   Exchanges exchanges_;
   std::array<double, 3> seconds_{};
   bool broken_ = false;
