@@ -79,31 +79,37 @@ VertexHandle TiledState<D>::add_point(PointId id, const Point<D>& p) {
 
 // --- The first run ---------------------------------------------------------------------------
 
+// Tiles of the points that there are.
 template <int D>
-Change<D> TiledState<D>::first_run(Edits<D> edits, const RunControl& control,
-                                   const Accept& accept) {
-  ids_.reserve(edits.points.size());
+auto TiledState<D>::build(const typename TiledMesher<D>::Ask& ask)
+    -> std::unique_ptr<TiledMesher<D>> {
+  const auto threads = static_cast<std::size_t>(options_.threads);
   std::vector<Point<D>> places;
-  places.reserve(edits.points.size());
-  for (const auto& edit : edits.points) {
-    features_.insert_only(points_[add_point(edit.id, *edit.to)]);
-    places.push_back(*edit.to);
-  }
-  auto tiles = std::make_unique<TiledMesher<D>>(options_, box_, places,
-                                          static_cast<std::size_t>(options_.threads),
-                                          static_cast<std::size_t>(options_.threads));
+  places.reserve(ids_.size());
+  points_.for_each([&](const Vertex<D>& v) { places.push_back(v.p); });
+  auto tiles = std::make_unique<TiledMesher<D>>(options_, box_, places, threads, threads);
   TileEdits by_tile(tiles->size());
   points_.for_each([&](Vertex<D>& v) {
     v.level = static_cast<std::int16_t>(features_.crowded_level(v));
     names_[v.self].level = v.level;
     by_tile[tiles->territories().owner(v.p)].push_back({v.p, std::nullopt, int{v.level}});
   });
+  tiles->first_run(by_tile, ask);
+  return tiles;
+}
+
+template <int D>
+Change<D> TiledState<D>::first_run(Edits<D> edits, const RunControl& control,
+                                   const Accept& accept) {
+  ids_.reserve(edits.points.size());
+  for (const auto& edit : edits.points) {
+    features_.insert_only(points_[add_point(edit.id, *edit.to)]);
+  }
   const auto ask = [&, points = ids_.size()](Phase phase, std::uint64_t calls) {
     const std::uint64_t of = phase == Phase::quadtree ? std::max<std::uint64_t>(points, calls) : 0;
     return report(control, {phase, calls, of});
   };
-  tiles->first_run(by_tile, ask);
-  tiles_ = std::move(tiles);
+  tiles_ = build(ask);
   const Mesh<D> mesh = tiles_->mesh();
   stats_.vertices = mesh.vertices.size();
   stats_.simplices = mesh.simplices.size();
@@ -204,6 +210,7 @@ Change<D> TiledState<D>::propagate(const Edits<D>& edits, const RunControl& cont
     });
   } catch (...) {
     take_back(moves);
+    if (tiles_->is_broken()) tiles_ = build({});  // the mesh is a function of the points
     throw;
   }
   for (const auto& [id, h] : moves.gone) points_.release(points_[h]);

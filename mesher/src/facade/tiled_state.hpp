@@ -59,6 +59,7 @@ class TiledState final : public AnyState<D> {
     std::vector<std::pair<VertexHandle, std::optional<int>>> levels;  // as they were
   };
 
+  [[nodiscard]] std::unique_ptr<TiledMesher<D>> build(const typename TiledMesher<D>::Ask& ask);
   VertexHandle add_point(PointId id, const Point<D>& p);
   [[nodiscard]] TileEdits make(const PointEdits<D>& edits, Moves& moves);
   void take_back(const Moves& moves);

@@ -668,7 +668,7 @@ void VertexIndex<sac::Scope, D>::commit() noexcept {
     if (v.alive || v.input) return;
     const bool tried = v.queries != 0;
     set_trial(v, tried);
-    if (tried) return;
+    if (tried || v.held != 0) return;
     tree_.erase(v);
     pool_.release(v);
   });
@@ -696,7 +696,7 @@ template <int D>
 void VertexIndex<sac::Scope, D>::check_vertex(const Vertex<D>& v) const {
   SAC_INVARIANT(tree_.find(v.p) == &v);
   SAC_INVARIANT(v.alive == v.committed && (v.alive || !v.input));
-  SAC_INVARIANT(v.alive ? !v.changed && !v.trial : v.changed || v.queries != 0);
+  SAC_INVARIANT(v.alive ? !v.changed && !v.trial : v.changed || v.queries != 0 || v.held != 0);
   SAC_INVARIANT(v.alive == (v.boundary || v.presence.there()));
   presences_.check_invariants(v.presence);
   if (v.presence.there()) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "program/lines.hpp"
 #include "program/split_slivers.hpp"
@@ -109,11 +110,34 @@ Filled fill_gaps(S& s, World<S, D>& w, CellOf<D>& gaps, Staying<S, D>& stays, co
   return filled;
 }
 
+/// Complete(v, b) where v is another tile's: what that has seen here is looked at again, and what it
+/// has inserted is born.
+template <int D>
+void complete_for_another(sac::Scope& s, World<sac::Scope, D>& w, VertexRef<D> v) {
+  const auto& script = w.border->read_script(s);
+  std::vector<VertexHandle> found;
+  for (const auto& [question, radius] : script.questions) {
+    w.vertices.look_across(s, v, radius, found);
+    w.border->answer(s, question, found);
+  }
+  for (const auto& [birth, count] : script.births) {
+    const VertexRef<D> x = w.vertices.claim(birth.first);
+    w.vertices.insert(s, x);
+    if (birth.second < 0) continue;
+    w.post_complete(s, x, birth.second);
+    w.post_star(s, x);
+  }
+}
+
 // else if w is a Complete event on v: if v encroaches leaves, cut them [5.2b]; in space, add
 // vertices to features that cross v's star. Then fill v's gap balls
 template <class S, int D>
 void Complete::operator()(S& s, VertexRef<D> v, int b) const {
   auto& w = s.template environment<World<S, D>>();
+  if constexpr (S::kTraced && D <= 3) {
+    if (!w.owns(v->p)) [[unlikely]]
+      return complete_for_another(s, w, v);
+  }
   if (is_settled(s, w, v, b)) return;
   const CellLoan<D> gaps = w.vertices.voronoi_cell(s, v, w.buckets().clip_radius(b));
   Staying<S, D> stays(w, *gaps);

@@ -21,7 +21,7 @@
 #include "rules/insertion_rule.hpp"
 #include "sac/sac.hpp"
 #include "sizes/limits_of.hpp"
-#include "tiles/tile_border.hpp"
+#include "borders/tile_border.hpp"
 
 namespace mesher::detail {
 

@@ -34,7 +34,7 @@ TileMesher<D>::~TileMesher() {
 // --- Edits and messages ----------------------------------------------------------------------
 
 template <int D>
-sac::Agenda& TileMesher<D>::agenda(const Turn& turn) noexcept {
+sac::Agenda& TileMesher<D>::agenda(const Turn<D>& turn) noexcept {
   if (turn.stage == Stage::quadtree) return world_->quadtree;
   if (turn.stage == Stage::stars) return world_->stars;
   return world_->steiner_at(turn.key(kKeyWidths).bucket);
@@ -127,18 +127,56 @@ template <int D>
 void TileMesher<D>::carry_out(const Order& order) {
   const VertexRef<D> v = world_->vertices.claim(order.p);
   if (order.kind == Order::Kind::locate) return locate(order, v);
-  const Turn& t = order.turn;
+  const Turn<D>& t = order.turn;
+  const sac::Key key = t.key(kKeyWidths);
+  if (t.stage == Stage::steiner && key.phase == 1) return carry_out_in_complete(order, key.bucket);
   sac::Agenda& at = agenda(t);
   const auto stage = static_cast<std::uint32_t>(t.stage);
   if (order.kind == Order::Kind::ask) {
-    order.begins ? at.template post_from_outside<across>(t.key(kKeyWidths), v, order.radius,
-                                                         order.name)
+    order.begins ? at.template post_from_outside<across>(key, v, order.radius, order.name)
                  : at.template retract_from_outside<across>(v, order.radius, order.name);
   } else {
-    order.begins ? at.template post_from_outside<arrive>(t.key(kKeyWidths), v, order.number, stage,
-                                                         t.rank, t.order, order.name)
+    order.begins ? at.template post_from_outside<arrive>(key, v, order.number, stage, t.rank,
+                                                         t.order, order.name)
                  : at.template retract_from_outside<arrive>(v, order.number, stage, t.rank, t.order,
                                                             order.name);
+  }
+}
+
+// Calls of one key run in the order of their vertices' places, so what is Complete elsewhere is
+// Complete here.
+template <int D>
+void TileMesher<D>::carry_out_in_complete(const Order& order, int bucket) {
+  using Script = typename TileBorder<D>::Script;
+  const auto change = [order](Script& script, bool begins) {
+    if (order.kind == Order::Kind::ask) {
+      if (begins) {
+        script.questions.emplace(order.name, order.radius);
+      } else {
+        script.questions.erase(order.name);
+      }
+    } else {
+      const auto it = script.births.try_emplace({order.p, order.number}, 0).first;
+      it->second += begins ? 1 : -1;
+      if (it->second == 0) script.births.erase(it);
+    }
+  };
+  const bool was_there = border_->edit_script(
+      order.turn, [&](Script& script) { change(script, order.begins); },
+      [change, begins = order.begins](Script& script) { change(script, !begins); });
+  const bool is_there = border_->has_script(order.turn);
+  if (was_there == is_there) return;
+  const VertexRef<D> v = world_->vertices.claim(order.turn.p);
+  Vertex<D>* const record = v.v;
+  if (v->held != Vertex<D>::kMostHeld) {
+    engine_->on_rollback([record, was = std::uint8_t{v->held}] { record->held = was & 31; });
+    v->held = static_cast<std::uint8_t>(v->held + (is_there ? 1 : -1)) & 31;
+  }
+  sac::Agenda& at = agenda(order.turn);
+  if (is_there) {
+    at.template post_from_outside<complete>(order.turn.key(kKeyWidths), v, bucket);
+  } else {
+    at.template retract_from_outside<complete>(v, bucket);
   }
 }
 
@@ -216,6 +254,7 @@ std::vector<Message<D>> TileMesher<D>::collect(Changes* changes) {
   count_own(log.touched);
   world_->vertices.keep_reading(log.touched);
   world_->vertices.commit();
+  border_->forget_scripts();
   return out;
 }
 
@@ -271,9 +310,9 @@ void TileMesher<D>::collect_births(std::vector<Message<D>>& out) {
 
 // When v was born, unless that was in the asking tile, which knows.
 template <int D>
-std::optional<Turn> TileMesher<D>::birth_for(std::uint32_t asker, const Vertex<D>& v) const {
+std::optional<Turn<D>> TileMesher<D>::birth_for(std::uint32_t asker, const Vertex<D>& v) const {
   if (!v.alive || v.boundary) return std::nullopt;
-  const Turn turn = border_->turn_of(engine_->call_at(v.presence.birth()));
+  const Turn<D> turn = border_->turn_of(engine_->call_at(v.presence.birth()));
   const auto [first, last] = from_.equal_range(v.p);
   const bool known = std::any_of(
       first, last, [&](const auto& f) { return f.second.tile == asker && f.second.turn == turn; });
@@ -303,9 +342,9 @@ void TileMesher<D>::tell(Doubtful& doubtful, std::vector<Message<D>>& out) {
               [&](VertexHandle a, VertexHandle b) { return pool[a].p < pool[b].p; });
     some.erase(std::unique(some.begin(), some.end()), some.end());
     for (const VertexHandle h : some) {
-      std::optional<Turn>& told = askers_[t].told[h];
+      std::optional<Turn<D>>& told = askers_[t].told[h];
       const auto to = static_cast<std::uint32_t>(t);
-      const std::optional<Turn> turn = birth_for(to, pool[h]);
+      const std::optional<Turn<D>> turn = birth_for(to, pool[h]);
       if (turn != told) {
         if (told) out.push_back({Kind::depart, to, {}, {pool[h].p, -1, *told}});
         if (turn) out.push_back({Kind::arrive, to, {}, {pool[h].p, -1, *turn}});
@@ -359,6 +398,47 @@ void TileMesher<D>::collect_changes(Changes& changes) const {
   };
   add(log.stars_gone, changes.simplices_gone);
   add(log.stars_come, changes.simplices_come);
+}
+
+// --- Between runs ----------------------------------------------------------------------------
+
+template <int D>
+bool TileMesher<D>::has_arrived(std::size_t from, const Point<D>& p, const Turn<D>& turn) const {
+  const auto [first, last] = from_.equal_range(p);
+  return std::any_of(first, last, [&](const auto& f) {
+    return f.second.tile == from && f.second.turn == turn;
+  });
+}
+
+template <int D>
+std::string TileMesher<D>::fault_with(const TileMesher& other) const {
+  const auto& pool = other.world_->vertices.pool();
+  const Asker& asker = other.askers_[self_];
+  std::string fault;
+  border_->for_each_look([&](const Look<D>& look, const Box<D>& area) {
+    bool meets = false;
+    all_.for_each_met(area, [&](std::size_t tile) { meets = meets || tile == other.self_; });
+    if (!meets) return;
+    const auto it = asker.questions.find(look);
+    if (it == asker.questions.end()) {
+      fault = "a look of tile " + std::to_string(self_) + " is not asked";
+      return;
+    }
+    for (const VertexHandle h : other.border_->answer_to(it->second)) {
+      if (pool[h].boundary || !other.border_->owns(pool[h].p)) continue;
+      const auto turn = other.birth_for(static_cast<std::uint32_t>(self_), pool[h]);
+      if (turn && !has_arrived(other.self_, pool[h].p, *turn)) {
+        fault = "a vertex of tile " + std::to_string(other.self_) + " is not known to tile " +
+                std::to_string(self_);
+      }
+    }
+  });
+  border_->for_each_birth([&](const Birth<D>& birth) {
+    if (all_.owner(birth.p) == other.self_ && !other.has_arrived(self_, birth.p, birth.turn)) {
+      fault = "a vertex that tile " + std::to_string(self_) + " has made has not arrived";
+    }
+  });
+  return fault;
 }
 
 template <int D>

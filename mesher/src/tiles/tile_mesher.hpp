@@ -14,12 +14,13 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "program/world.hpp"
-#include "tiles/tile_border.hpp"
-#include "tiles/turn.hpp"
+#include "borders/tile_border.hpp"
+#include "borders/turn.hpp"
 
 namespace mesher::detail {
 
@@ -32,7 +33,7 @@ struct Message {
   Look<D> look;    // ask, end
   Birth<D> birth;  // arrive, depart
 
-  [[nodiscard]] const Turn& turn() const noexcept {
+  [[nodiscard]] const Turn<D>& turn() const noexcept {
     return kind < Kind::arrive ? look.turn : birth.turn;
   }
 };
@@ -71,6 +72,7 @@ class TileMesher {
   void watch(std::function<bool(std::uint64_t)> report);
   /// Whether something waits to be run.
   [[nodiscard]] bool is_dirty() const noexcept { return !orders_.empty(); }
+  [[nodiscard]] std::size_t orders() const noexcept { return orders_.size(); }
 
   /// The parts of a first run: points are located; parts 0 to parts() - 1, by buckets; stars. What
   /// throws leaves the tile good for nothing.
@@ -79,6 +81,9 @@ class TileMesher {
   void run_part(int part);
   void run_stars();
   [[nodiscard]] int parts() const noexcept { return static_cast<int>(world_->parts.size()); }
+  [[nodiscard]] std::uint64_t waiting_in(int part) const noexcept {
+    return world_->parts[static_cast<std::size_t>(part)]->waiting_calls();
+  }
   /// The first part from `part` on in which calls wait.
   [[nodiscard]] int next_part(int part) const noexcept;
   /// Brings what has run up to date with what was noted. What throws leaves everything as it was;
@@ -106,6 +111,11 @@ class TileMesher {
   [[nodiscard]] const TileCounts& counts() const noexcept { return counts_; }
   [[nodiscard]] const sac::Engine& engine() const noexcept { return *engine_; }
   [[nodiscard]] std::size_t bytes() const;
+  /// The certificate of what this tile and another know of each other: each look of this one that
+  /// reaches the other's territory is asked there, and all that was found has arrived, at its turn;
+  /// so have births beyond the border. If that holds for all pairs, the mesh is that of one mesher
+  /// for all. Returns: what is wrong; empty: nothing. Cost: O(looks and births across borders).
+  [[nodiscard]] std::string fault_with(const TileMesher& other) const;
   void check_invariants() const;
 
  private:
@@ -119,7 +129,7 @@ class TileMesher {
     Kind kind;
     bool begins;
     Point<D> p;
-    Turn turn;
+    Turn<D> turn;
     int number;          // locate: the level; arrive: the bucket
     std::uint32_t name;  // ask: the question; arrive: from which tile
     double radius;
@@ -132,16 +142,17 @@ class TileMesher {
     // Who was found for it, and the turns of their births; nothing: it knows. What it was told it
     // knows for good: if it forgot what is hidden from it, two tiles could hide things from each
     // other by what they were about to forget.
-    std::unordered_map<VertexHandle, std::optional<Turn>> told;
+    std::unordered_map<VertexHandle, std::optional<Turn<D>>> told;
   };
   struct From {
-    Turn turn;
+    Turn<D> turn;
     std::uint32_t tile;
   };
 
-  [[nodiscard]] sac::Agenda& agenda(const Turn& turn) noexcept;
+  [[nodiscard]] sac::Agenda& agenda(const Turn<D>& turn) noexcept;
   void post_orders();
   void carry_out(const Order& order);
+  void carry_out_in_complete(const Order& order, int bucket);
   void locate(const Order& order, VertexRef<D> v);
   void ask(std::uint32_t from, const Look<D>& look);
   void end(std::uint32_t from, const Look<D>& look);
@@ -153,7 +164,8 @@ class TileMesher {
   void collect_answers(Doubtful& doubtful);
   void note(std::size_t tile, VertexHandle h, Doubtful& doubtful);
   void tell(Doubtful& doubtful, std::vector<Message<D>>& out);
-  [[nodiscard]] std::optional<Turn> birth_for(std::uint32_t asker, const Vertex<D>& v) const;
+  [[nodiscard]] std::optional<Turn<D>> birth_for(std::uint32_t asker, const Vertex<D>& v) const;
+  [[nodiscard]] bool has_arrived(std::size_t from, const Point<D>& p, const Turn<D>& turn) const;
   void count_own(const std::vector<VertexHandle>& touched) noexcept;
   void collect_changes(Changes& changes) const;
 

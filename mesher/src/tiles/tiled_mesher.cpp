@@ -23,11 +23,12 @@ TiledMesher<D>::TiledMesher(const Options<D>& options, const MeshBox<D>& box,
 
 // --- Threads ---------------------------------------------------------------------------------
 
-// Calls act(t) for these tiles, on up to threads_ threads. Throws: what act() has thrown, that of
-// the first tile; but being stopped only if that is all.
+// Calls act(t) for these tiles, on up to threads_ threads; on one if there is little work, in calls.
+// Throws: what act() has thrown, that of the first tile; but being stopped only if that is all.
 template <int D>
 template <class Act>
-void TiledMesher<D>::run(const std::vector<std::size_t>& which, Act&& act) {
+void TiledMesher<D>::run(const std::vector<std::size_t>& which, std::uint64_t work_to_do,
+                         Act&& act) {
   std::vector<std::exception_ptr> failures(which.size());
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
@@ -41,7 +42,8 @@ void TiledMesher<D>::run(const std::vector<std::size_t>& which, Act&& act) {
     }
   };
   std::vector<std::thread> others;
-  const std::size_t threads = std::min(threads_, which.size());
+  constexpr std::uint64_t kLittle = 64;  // takes less time than to begin a thread
+  const std::size_t threads = work_to_do < kLittle ? 1 : std::min(threads_, which.size());
   try {
     while (others.size() + 1 < threads) others.emplace_back(work);
   } catch (...) {  // no more threads: those that there are do it
@@ -62,10 +64,10 @@ void TiledMesher<D>::run(const std::vector<std::size_t>& which, Act&& act) {
 
 template <int D>
 template <class Act>
-void TiledMesher<D>::for_each_tile(Act&& act) {
+void TiledMesher<D>::for_each_tile(std::uint64_t work, Act&& act) {
   std::vector<std::size_t> all(tiles_.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  run(all, act);
+  run(all, work, act);
 }
 
 template <int D>
@@ -99,11 +101,13 @@ void TiledMesher<D>::exchange() {
   }
   if (first) {
     ++exchanges_.rounds;
+    std::uint64_t messages = 0;
     for (std::size_t t = 0; t < tiles_.size(); ++t) {
       waiting_[t].send_until(*first, [&](const Message<D>& m) { out_[t].push_back(m); });
-      exchanges_.messages += out_[t].size();
+      messages += out_[t].size();
     }
-    for_each_tile([&](std::size_t t) {
+    exchanges_.messages += messages;
+    for_each_tile(messages / 16, [&](std::size_t t) {
       for (std::size_t from = 0; from < tiles_.size(); ++from) tiles_[t]->receive(from, out_[from]);
     });
     for (auto& out : out_) out.clear();
@@ -115,12 +119,16 @@ void TiledMesher<D>::exchange() {
 template <int D>
 void TiledMesher<D>::settle(Changes* changes) {
   std::vector<std::size_t> dirty;
+  std::uint64_t orders = 0;
   std::vector<Changes> all(changes != nullptr ? tiles_.size() : 0);
   while (true) {
     exchange();
     dirty.clear();
+    orders = 0;
     for (std::size_t t = 0; t < tiles_.size(); ++t) {
-      if (tiles_[t]->is_dirty()) dirty.push_back(t);
+      if (!tiles_[t]->is_dirty()) continue;
+      dirty.push_back(t);
+      orders += tiles_[t]->orders();
     }
     if (dirty.empty()) return;
     if (stops_) throw sac::Cancelled();
@@ -135,7 +143,7 @@ void TiledMesher<D>::settle(Changes* changes) {
       }
     };
     try {
-      run(dirty, act);
+      run(dirty, orders, act);
     } catch (...) {
       if (lost) is_exact_ = false;
       throw;
@@ -156,7 +164,7 @@ void TiledMesher<D>::settle(Changes* changes) {
 // What one mesher for all would have refused.
 template <int D>
 void TiledMesher<D>::require_all() const {
-  std::optional<std::pair<Turn, Error>> first;
+  std::optional<std::pair<Turn<D>, Error>> first;
   for (const auto& tile : tiles_) {
     auto fault = tile->border().first_fault();
     if (fault && (!first || fault->first < first->first)) first = std::move(fault);
@@ -182,22 +190,23 @@ void TiledMesher<D>::first_run(const Edits& edits, const Ask& ask) {
     seconds_[static_cast<std::size_t>(phase_)] = std::chrono::duration<double>(now - mark).count();
     mark = now;
   };
-  const auto run_all = [&](auto&& part) {
-    for_each_tile([&](std::size_t t) {
+  const auto run_all = [&](std::uint64_t calls, auto&& part) {
+    for_each_tile(calls, [&](std::size_t t) {
       part(*tiles_[t], t);
       out_[t] = tiles_[t]->collect(nullptr);
     });
     settle(nullptr);
     require_all();
   };
+  constexpr std::uint64_t kMany = ~std::uint64_t{0};
   begin(Phase::quadtree);
-  run_all([&](TileMesher<D>& tile, std::size_t t) {
+  run_all(kMany, [&](TileMesher<D>& tile, std::size_t t) {
     tile.edit(edits[t]);
     tile.run_quadtree();
   });
   end();
   begin(Phase::steiner);
-  for_each_tile([&](std::size_t t) { tiles_[t]->begin_questions(); });
+  for_each_tile(kMany, [&](std::size_t t) { tiles_[t]->begin_questions(); });
   const auto next_part = [&](int part) {
     int next = tiles_[0]->parts();
     for (const auto& tile : tiles_) next = std::min(next, tile->next_part(part));
@@ -208,21 +217,28 @@ void TiledMesher<D>::first_run(const Edits& edits, const Ask& ask) {
     const int first = done;
     done = std::min(next_part(first) + 1, parts);
     ++exchanges_.horizons;
-    run_all([&](TileMesher<D>& tile, std::size_t) {
+    std::uint64_t calls = 0;
+    for (const auto& tile : tiles_) calls += tile->waiting_in(done - 1);
+    run_all(calls, [&](TileMesher<D>& tile, std::size_t) {
       for (int part = first; part < done; ++part) tile.run_part(part);
     });
   }
   end();
   begin(Phase::triangulate);
-  run_all([&](TileMesher<D>& tile, std::size_t) { tile.run_stars(); });
+  run_all(kMany, [&](TileMesher<D>& tile, std::size_t) { tile.run_stars(); });
   end();
   watch({});
 }
 
 template <int D>
+void TiledMesher<D>::require_sound() const {
+  if (broken_) throw sac::UsageError("an update failed, and could not be taken back");
+}
+
+template <int D>
 void TiledMesher<D>::update(const Edits& edits, const Ask& ask,
                       const std::function<void(Changes&)>& last) {
-  if (broken_) throw sac::UsageError("an update failed, and could not be taken back");
+  require_sound();
   phase_ = Phase::update;
   watch(ask);
   is_exact_ = false;
@@ -279,6 +295,7 @@ std::uint64_t TiledMesher<D>::calls() const noexcept {
 
 template <int D>
 Mesh<D> TiledMesher<D>::mesh() const {
+  require_sound();
   std::vector<Point<D>> places;
   std::vector<VertexKind> kinds;
   std::vector<std::vector<std::uint32_t>> number(tiles_.size());  // by tile and handle
@@ -316,9 +333,21 @@ Mesh<D> TiledMesher<D>::mesh() const {
 }
 
 template <int D>
+std::string TiledMesher<D>::certificate_fault() const {
+  for (const auto& one : tiles_) {
+    for (const auto& other : tiles_) {
+      if (one == other) continue;
+      if (std::string fault = one->fault_with(*other); !fault.empty()) return fault;
+    }
+  }
+  return {};
+}
+
+template <int D>
 void TiledMesher<D>::check_invariants() const {
   SAC_INVARIANT(!broken_);
   for (const auto& tile : tiles_) tile->check_invariants();
+  SAC_INVARIANT(certificate_fault().empty());
 }
 
 template class TiledMesher<2>;

@@ -11,12 +11,13 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "mesher/meshing.hpp"
-#include "tiles/territory.hpp"
+#include "borders/territory.hpp"
 #include "tiles/tile_mesher.hpp"
 
 namespace mesher::detail {
@@ -55,7 +56,7 @@ class Outbox {
  private:
   using Kind = typename Message<D>::Kind;
   struct Key {
-    Turn turn;
+    Turn<D> turn;
     std::uint32_t to;
     bool is_birth;
     Look<D> look;
@@ -71,7 +72,7 @@ class Outbox {
                                  : (sign > 0 ? Kind::ask : Kind::end);
     return {kind, k.to, k.look, k.birth};
   }
-  static Time time(const Turn& turn) noexcept {
+  static Time time(const Turn<D>& turn) noexcept {
     return {turn.stage, turn.rank >> (kKeyWidths.phase + kKeyWidths.colour)};
   }
 
@@ -108,17 +109,22 @@ class TiledMesher {
   [[nodiscard]] const std::array<double, 3>& seconds() const noexcept { return seconds_; }
   /// Calls that have run.
   [[nodiscard]] std::uint64_t calls() const noexcept;
+  /// TileMesher::fault_with of all pairs: empty if the mesh is certain to be that of one mesher.
+  [[nodiscard]] std::string certificate_fault() const;
+  /// Whether an update could not be taken back: then only the end is left.
+  [[nodiscard]] bool is_broken() const noexcept { return broken_; }
   void check_invariants() const;
 
  private:
   template <class Act>
-  void for_each_tile(Act&& act);
+  void for_each_tile(std::uint64_t work, Act&& act);
   template <class Act>
-  void run(const std::vector<std::size_t>& which, Act&& act);
+  void run(const std::vector<std::size_t>& which, std::uint64_t work, Act&& act);
   void watch(const Ask& ask);
   void exchange();
   void settle(Changes* changes);
   void require_all() const;
+  void require_sound() const;
   void take_back(const Edits& edits) noexcept;
 
   Options<D> options_;

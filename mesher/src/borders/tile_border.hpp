@@ -11,8 +11,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <set>
 #include <span>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -20,8 +23,8 @@
 #include "index/look_listener.hpp"
 #include "mesher/error.hpp"
 #include "sac/sac.hpp"
-#include "tiles/territory.hpp"
-#include "tiles/turn.hpp"
+#include "borders/territory.hpp"
+#include "borders/turn.hpp"
 
 namespace mesher::detail {
 
@@ -45,21 +48,82 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     stars_ = stars;
   }
   [[nodiscard]] bool owns(const Point<D>& p) const noexcept { return all_.owns(self_, p); }
-  [[nodiscard]] Turn turn_of(const sac::Call& call) const noexcept {
+  [[nodiscard]] Turn<D> turn_of(const sac::Call& call) const noexcept {
     const Stage stage = call.work_queue == quadtree_ ? Stage::quadtree
                         : call.work_queue == stars_  ? Stage::stars
                                                      : Stage::steiner;
-    return {stage, sac::Slot::of(call).rank, sac::Slot::of(call).order};
+    Turn<D> turn{stage, sac::Slot::of(call).rank, sac::Slot::of(call).order, {}};
+    if (stage == Stage::steiner) {  // Complete, or ComputeNN, of a vertex in a bucket
+      using Arguments = std::tuple<VertexRef<D>, int>;
+      turn.p = std::get<0>(*static_cast<const Arguments*>(call.function().arguments(call)))->p;
+    }
+    return turn;
+  }
+
+  // --- Complete of other tiles' vertices: what it has to do here
+
+  struct Script {
+    std::map<std::uint32_t, double> questions;  // what is looked at for others: up to where
+    std::map<std::pair<Point<D>, int>, int> births;  // of which vertices, to be completed in which
+                                                     // bucket (or not): by how many messages
+    sac::Ref<sac::Call> reader;
+    [[nodiscard]] bool is_empty() const noexcept { return questions.empty() && births.empty(); }
+  };
+  /// An edit, with its inverse noted for a roll-back. Returns: whether there was anything to do.
+  template <class Edit, class Undo>
+  bool edit_script(const Turn<D>& turn, Edit&& edit, Undo undo) {
+    edited_.push_back(turn);
+    Script& script = scripts_[turn];
+    const bool was_empty = script.is_empty();
+    engine_.begin_edit();
+    engine_.on_rollback([this, turn, undo] {
+      Script& now = scripts_[turn];
+      undo(now);
+      changed(now);
+    });
+    edit(script);
+    changed(script);
+    return !was_empty;
+  }
+  [[nodiscard]] bool has_script(const Turn<D>& turn) const {
+    const auto it = scripts_.find(turn);
+    return it != scripts_.end() && !it->second.is_empty();
+  }
+  /// What the running call, Complete of a vertex of another tile, has to do.
+  [[nodiscard]] const Script& read_script(sac::Scope& s) {
+    static constexpr auto kAny = [](const sac::Edge&) { return true; };
+    if (s.recall<sac::Edge>(id_, kScript, kAny) == nullptr) {
+      static_cast<void>(s.observe<sac::Edge>(id_, kScript));
+    }
+    Script& script = scripts_[turn_of(s.self())];
+    script.reader = engine_.handle_of(s.self());
+    return script;
+  }
+  /// Forgets scripts with nothing to do. Requires: no run is under way, and none can be undone.
+  void forget_scripts() noexcept {
+    for (const Turn<D>& turn : edited_) {
+      const auto it = scripts_.find(turn);
+      if (it == scripts_.end() || !it->second.is_empty() || it->second.reader != nullptr) continue;
+      scripts_.erase(it);
+    }
+    edited_.clear();
   }
 
   void hand_over(sac::Scope& s, VertexRef<D> v, int bucket) {
     const auto same = [&](const HandOver& e) { return e.vertex == v->self && e.bucket == bucket; };
     if (s.recall<HandOver>(id_, kHandOver, same) != nullptr) return;
-    make_room(births_, ++handed_over_);
-    auto& edge = s.effect<HandOver>(id_, kHandOver);
-    edge.vertex = v->self;
-    edge.bucket = bucket;
-    births_.push_back({{v->p, bucket, turn_of(s.self())}, 1});
+    const Birth<D> birth{v->p, bucket, turn_of(s.self())};
+    const auto live = born_.insert(birth);
+    try {
+      make_room(births_, born_.size());
+      auto& edge = s.effect<HandOver>(id_, kHandOver);
+      edge.vertex = v->self;
+      edge.bucket = bucket;
+    } catch (...) {
+      born_.erase(live);
+      throw;
+    }
+    births_.push_back({birth, 1});
   }
   void answer(sac::Scope& s, std::uint32_t id, std::span<const VertexHandle> found) {
     const auto same = [&](const Answer& e) {
@@ -86,9 +150,9 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
   void looked(const Vertex<D>& center, const Observation<D>& o, double radius) override {
     const Box<D> area = area_of(center, o);
     if (is_inside(area)) return;
-    const Look<D> look{center.p, radius, turn_of(engine_.call(o.call))};
+    Look<D> look{center.p, radius, turn_of(engine_.call(o.call))};
+    make_room(looks_, crossing_.size() + 1);
     crossing_.emplace(engine_.arena().handle_of(&o), std::pair{look, area});
-    make_room(looks_, crossing_.size());
     looks_.push_back({look, area, &o, 1});
   }
   void forgot(const Vertex<D>& center, const Observation<D>& o) noexcept override {
@@ -112,6 +176,16 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     int sign;
   };
   [[nodiscard]] std::vector<LookEvent> take_looks() { return std::exchange(looks_, {}); }
+  /// Calls visit(look, area) for all looks beyond the territory.
+  template <class Visit>
+  void for_each_look(Visit&& visit) const {
+    for (const auto& [handle, look] : crossing_) visit(look.first, look.second);
+  }
+  /// Calls visit(birth) for all births beyond it.
+  template <class Visit>
+  void for_each_birth(Visit&& visit) const {
+    for (const Birth<D>& birth : born_) visit(birth);
+  }
   /// Whether the observation of a look is still there.
   [[nodiscard]] bool is_there(const LookEvent& e) const {
     const auto it = crossing_.find(engine_.arena().handle_of(e.seen));
@@ -128,8 +202,8 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     return {edge.found(), edge.count};
   }
   /// The first fault that there is, by turn.
-  [[nodiscard]] std::optional<std::pair<Turn, Error>> first_fault() const {
-    std::optional<std::pair<Turn, std::uint32_t>> first;
+  [[nodiscard]] std::optional<std::pair<Turn<D>, Error>> first_fault() const {
+    std::optional<std::pair<Turn<D>, std::uint32_t>> first;
     for (const auto& [error, turn] : live_faults_) {
       if (!first || std::pair(turn, error) < *first) first = {turn, error};
     }
@@ -140,13 +214,19 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
   void retract(sac::Call& call, sac::Edge& edge) noexcept override {
     if (edge.kind == kHandOver) {
       const auto& e = static_cast<HandOver&>(edge);
-      births_.push_back({{(*pool_)[e.vertex].p, e.bucket, turn_of(call)}, -1});
-      --handed_over_;
+      const Birth<D> birth{(*pool_)[e.vertex].p, e.bucket, turn_of(call)};
+      births_.push_back({birth, -1});
+      born_.erase(born_.find(birth));
     } else if (edge.kind == kAnswer) {
       const auto it = answers_.find(static_cast<Answer&>(edge).id);
       if (it == answers_.end() || it->second != sac::Arena::ref(static_cast<Answer&>(edge))) return;
       answered_.push_back(it->first);
       answers_.erase(it);
+    } else if (edge.kind == kScript) {
+      const auto it = scripts_.find(turn_of(call));
+      if (it != scripts_.end() && it->second.reader == engine_.handle_of(call)) {
+        it->second.reader = nullptr;
+      }
     } else {
       live_faults_.erase(static_cast<Fault&>(edge).error);
     }
@@ -156,6 +236,7 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
   static constexpr std::uint8_t kHandOver = 0;
   static constexpr std::uint8_t kAnswer = 1;
   static constexpr std::uint8_t kFault = 2;
+  static constexpr std::uint8_t kScript = 3;
   struct HandOver : sac::Edge {
     VertexHandle vertex;
     std::int32_t bucket;
@@ -174,6 +255,9 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     std::uint32_t error;
   };
 
+  void changed(const Script& script) noexcept {
+    if (script.reader != nullptr) engine_.invalidate(engine_.call(script.reader));
+  }
   // For one event more, and for each of `live` to be taken back, which must not allocate.
   template <class Event>
   static void make_room(std::vector<Event>& events, std::size_t live) {
@@ -203,12 +287,14 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
   std::uint64_t quadtree_ = 0, stars_ = 0;
   std::unordered_map<sac::Handle, std::pair<Look<D>, Box<D>>> crossing_;
   std::vector<LookEvent> looks_;
-  std::size_t handed_over_ = 0;
+  std::multiset<Birth<D>> born_;  // beyond the territory
   std::vector<BirthEvent> births_;
   std::unordered_map<std::uint32_t, sac::Ref<Answer>> answers_;
   std::vector<std::uint32_t> answered_;
+  std::map<Turn<D>, Script> scripts_;
+  std::vector<Turn<D>> edited_;  // since some were forgotten last
   std::vector<Error> faults_;
-  std::unordered_map<std::uint32_t, Turn> live_faults_;
+  std::unordered_map<std::uint32_t, Turn<D>> live_faults_;
 };
 
 }  // namespace mesher::detail

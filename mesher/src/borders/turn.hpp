@@ -13,10 +13,13 @@ namespace mesher::detail {
 /// The agendas of the program, in their order.
 enum class Stage : std::uint8_t { quadtree, steiner, stars };
 
+/// `p`: of Complete, the place of its vertex; calls of one rank and order run in the order of these.
+template <int D>
 struct Turn {
   Stage stage = Stage::quadtree;
   std::uint32_t rank = 0;
   std::uint64_t order = 0;
+  Point<D> p{};
   friend auto operator<=>(const Turn&, const Turn&) = default;
 
   /// Of a call with this turn, on an agenda with these widths.
@@ -36,7 +39,7 @@ template <int D>
 struct Look {
   Point<D> p{};
   double radius = 0;
-  Turn turn;
+  Turn<D> turn;
   friend auto operator<=>(const Look&, const Look&) = default;
 };
 
@@ -46,7 +49,7 @@ template <int D>
 struct Birth {
   Point<D> p{};
   int bucket = -1;
-  Turn turn;
+  Turn<D> turn;
   friend auto operator<=>(const Birth&, const Birth&) = default;
 };
 
