@@ -160,7 +160,13 @@ auto TiledState<D>::make(const PointEdits<D>& edits, Moves& moves) -> TileEdits 
     if (!edit.to) continue;
     const VertexHandle h = add_point(edit.id, *edit.to);
     make_room();
-    features_.insert(points_[h], note);
+    try {
+      features_.insert(points_[h], note);
+    } catch (...) {
+      ids_.erase(edit.id);
+      points_.release(points_[h]);
+      throw;
+    }
     moves.come.emplace_back(edit.id, h);
     changed.push_back(h);
   }
