@@ -49,8 +49,11 @@ inline constexpr const char* kQualityHelp =
 /// `args` must outlive `command`.
 void add_program_options(CLI::App& command, MeshArguments& args);
 
+/// Where the meshes of a command go: to files that are named (-o, --static, --stats), or elsewhere.
+enum class MeshGoes { to_files, elsewhere };
+
 /// Adds these and what is to become of the mesh.
-void add_mesh_options(CLI::App& command, MeshArguments& args);
+void add_mesh_options(CLI::App& command, MeshArguments& args, MeshGoes goes = MeshGoes::to_files);
 
 /// A number from the command line. Throws: Error(bad_option) naming `option`.
 [[nodiscard]] double option_number(const std::string& option, const std::string& text);
