@@ -295,7 +295,12 @@ typedef enum lm_graph_field {
   LM_GRAPH_REGIONS = 17, /* r x d F64 */
   LM_GRAPH_REGION_IDS = 18,
   LM_GRAPH_REGION_ATTRIBUTES = 19, /* r F64 */
-  LM_GRAPH_REGION_LIMITS = 20      /* r F64; 0: none */
+  LM_GRAPH_REGION_LIMITS = 20,     /* r F64; 0: none */
+  /* Declared to lie inside polygons: polygon i has the edges, and points, offsets[i] to ... */
+  LM_GRAPH_INNER_EDGE_OFFSETS = 21,  /* p + 1 I64 */
+  LM_GRAPH_INNER_EDGES = 22,         /* e x 2 I64: ids of the ends */
+  LM_GRAPH_INNER_POINT_OFFSETS = 23, /* p + 1 I64 */
+  LM_GRAPH_INNER_POINTS = 24         /* I64: ids */
 } lm_graph_field;
 
 LM_API lm_status lm_graph_dimension(lm_handle graph, int32_t* dimension);

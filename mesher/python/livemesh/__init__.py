@@ -16,9 +16,10 @@ from ._graph import Graph
 from ._live import Change, Compact, LiveMesh
 from ._mesh import Finding, Mesh, mesh
 from ._sizes import Sizes
+from ._view import View
 
 __version__: str = _c.c.version
 NO_CELL: int = _c.NONE
 
 __all__ = ["Busy", "Cancelled", "Change", "Compact", "Error", "Feature", "FileError", "Finding",
-           "GeometryError", "Graph", "LiveMesh", "Mesh", "NO_CELL", "Progress", "Sizes", "mesh"]
+           "GeometryError", "Graph", "LiveMesh", "Mesh", "NO_CELL", "Progress", "Sizes", "View", "mesh"]
