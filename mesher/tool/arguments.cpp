@@ -453,6 +453,23 @@ mesher::GroupNames names_of(const MeshArguments& args, int dimension) {
   return names;
 }
 
+std::vector<mesher::PeriodicMarkers> periodic_of(const MeshArguments& args, int dimension) {
+  std::vector<mesher::PeriodicMarkers> pairs;
+  if (dimension == 3 && !args.periodic.empty()) {
+    throw Error(ErrorCode::bad_option, "--periodic is for the plane; INPUT is in space",
+                {args.input});
+  }
+  for (const std::string& text : args.periodic) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos) {
+      throw Error(ErrorCode::bad_option, "--periodic '" + text + "': expected FROM=TO");
+    }
+    pairs.push_back({marker_number("--periodic", text.substr(0, equals)),
+                     marker_number("--periodic", text.substr(equals + 1))});
+  }
+  return pairs;
+}
+
 template <int D>
 void open_outputs(const MeshArguments& args, const Input<D>& input, Outputs<D>& outputs) {
   protect_inputs(args, input, outputs);

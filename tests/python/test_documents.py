@@ -107,7 +107,14 @@ class Examples(unittest.TestCase):
         self.assertAlmostEqual(mean[0], mean[1], delta=.01)
 
     def test_sides_of_a_periodic_cell_agree(self):
-        self.assertIn("after 2 rounds", run("periodic_cell.py"))
+        said = run("periodic_cell.py").splitlines()
+        self.assertRegex(said[0], r"^[0-9]+ twins, \[1.0, 0.0\] from each other$")
+        self.assertRegex(said[1], r"^[0-9]+ twins, \[0.0, 1.0\] from each other$")
+        twins = [int(line.split()[0]) for line in said[:2]]
+        vertices, unknowns = [int(n) for n in re.findall("([0-9]+) (?:vertices|unknowns)", said[2])]
+        self.assertGreater(min(twins), 5)
+        # The four corners have one unknown: twice two twins, and one more for both pairs.
+        self.assertEqual(vertices - unknowns, sum(twins) - 1)
 
     def test_a_shape_is_optimised(self):
         self.assertIn("conductance", run("optimise_shape.py", "16"))
