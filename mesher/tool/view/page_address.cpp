@@ -64,8 +64,12 @@ bool write_page_address(const std::string& path, const PageAddress& address) {
   fs::remove(path, ignored);
   std::FILE* const file = platform::create_private(path);
   if (file == nullptr) return false;
-  const bool written = std::fputs((address.text() + "\n").c_str(), file) >= 0;
-  return std::fclose(file) == 0 && written;
+  // Where the system has not made it so.
+  fs::permissions(path, fs::perms::owner_read | fs::perms::owner_write, ignored);
+  const bool written = is_private(path) && std::fputs((address.text() + "\n").c_str(), file) >= 0;
+  if (std::fclose(file) == 0 && written) return true;
+  fs::remove(path, ignored);
+  return false;
 }
 
 }  // namespace tool::view
