@@ -17,8 +17,7 @@
 //       parallel to an axis, it is on it, and coordinates in which sides do not differ are equal
 //       bits;
 //   (3) the mesh is that of a graph which has more points on its sides, and so has the guarantees
-//   of
-//       mesh(); it is a function of the graph, the pairs and the options.
+//       of mesh(); it is a function of the graph, the pairs and the options.
 //
 // How: mesh; where the pieces of twin sides are divided in different ways, both get the vertices of
 // the one with more of them as points of the input; mesh again, until they agree. Points come from

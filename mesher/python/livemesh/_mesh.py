@@ -365,9 +365,8 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
          rho: Optional[float] = None, min_dihedral: Optional[float] = None,
          max_area: Optional[float] = None, max_volume: Optional[float] = None, size: Any = None,
          growth: Optional[float] = None, periodic: Any = None, repair: bool = False,
-         merge: bool = True,
-         region_limits: bool = True,
-         no_flat: bool = True, extent: str = "enclosed", bounds: Any = None,
+         merge: bool = True, region_limits: bool = True, no_flat: bool = True,
+         extent: str = "enclosed", bounds: Any = None,
          algorithm: str = "automatic", order: int = 1,
          max_vertices: int = 0, progress: Optional[Callable[[_c.Progress], Any]] = None,
          timeout: Optional[float] = None) -> Mesh:
@@ -381,11 +380,13 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
     min_angle: degrees, at most 29.6, 20.7 by default; or rho: bound of circumradius over shortest
     edge. max_area, max_volume: of a cell. size: the edge length of a cell: a number, a function of
     n x d arrays (sampled), (points, sizes), or `Sizes`. region_limits: whether the limits of
-    regions count. periodic, in the plane: pairs of markers of lines; those of the second are those
-    of the first, moved, and so are their meshes: see `Mesh.periodic`. growth: sizes grow by at most this factor from one cell to the next, 1.05 to 100. no_flat: in space, tetrahedra without volume, which Delaunay meshes have, are
-    removed where that is possible. extent: "enclosed" or "box". bounds: 2 x d, the box in which
-    points may lie. algorithm: "automatic", "refine", "svr", "gap_balls". max_vertices: more are an
-    error. order: 2 for a mesh of second order, see `Mesh`.
+    regions count. periodic, in the plane: pairs of markers of lines; those of the second are
+    those of the first, moved, and so are their meshes: see `Mesh.periodic`. growth: sizes grow
+    by at most this factor from one cell to the next, 1.05 to 100. no_flat: in space, tetrahedra
+    without volume, which Delaunay meshes have, are removed where that is possible. extent:
+    "enclosed" or "box". bounds: 2 x d, the box in which points may lie. algorithm: "automatic",
+    "refine", "svr", "gap_balls". max_vertices: more are an error. order: 2 for a mesh of second
+    order, see `Mesh`.
 
     repair: lines and polygons may cross, touch and overlap. progress: called with a `Progress`; the
     run stops if it returns False. timeout: seconds. Ctrl-C stops it, too.

@@ -5,7 +5,6 @@ features; what both sides had when they last met is kept, so that each side's ed
 """
 from __future__ import annotations
 
-import ctypes
 import http.client
 import json
 import os
@@ -23,10 +22,9 @@ from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Optional, Tuple, 
 
 import numpy as np
 
-from . import _c
-from ._c import address, c
+from ._c import c
 from ._errors import Error, Feature, GeometryError
-from ._graph import Graph
+from ._graph import Graph, polygon_struct
 from ._sizes import Sizes
 
 if TYPE_CHECKING:
@@ -240,12 +238,9 @@ def _announce(live: "_LiveMesh", before: _Input, after: _Input) -> None:
 
 def _add_polygon(live: "_LiveMesh", number: int, polygon: Tuple[Any, ...]) -> None:
     loops, on, along, marker = polygon
-    sizes = np.array([len(loop) for loop in loops], np.uintp)
-    points = np.array([p for loop in loops for p in loop], np.int64)
-    edges, inner = np.array(along, np.int64).reshape(-1, 2), np.array(on, np.int64)
-    struct = _c.Polygon(ctypes.sizeof(_c.Polygon), len(loops), address(sizes), address(points),
-                        len(edges), address(edges), len(inner), address(inner), marker)
+    keep, struct = polygon_struct(loops, marker, along, on)
     live._call(c.live_add_polygon, byref(struct), byref(c_int64(number)), byref(c_int64()))
+    del keep
 
 
 # --- The page ------------------------------------------------------------------------------------

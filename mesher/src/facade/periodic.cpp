@@ -19,7 +19,6 @@
 namespace mesher {
 namespace {
 
-using detail::LinePiece;
 using detail::Places;
 using detail::TwinLines;
 using detail::TwinPieces;
@@ -51,10 +50,15 @@ Point<2> moved(const Point<2>& p, const Point<2>& by, double sign, const Point<2
   return q;
 }
 
-std::uint32_t vertex_at(const Mesh<2>& mesh, const Point<2>& p) {
+std::optional<std::uint32_t> find_vertex(const Mesh<2>& mesh, const Point<2>& p) {
   const auto found = std::lower_bound(mesh.vertices.begin(), mesh.vertices.end(), p);
-  SAC_EXPECTS(found != mesh.vertices.end() && *found == p);
+  if (found == mesh.vertices.end() || *found != p) return std::nullopt;
   return static_cast<std::uint32_t>(found - mesh.vertices.begin());
+}
+std::uint32_t vertex_at(const Mesh<2>& mesh, const Point<2>& p) {
+  const auto found = find_vertex(mesh, p);
+  SAC_EXPECTS(found.has_value());
+  return *found;
 }
 
 // The edges of lines, by vertex.
@@ -322,15 +326,11 @@ DomainMesh<2> periodic_domain_mesh(PeriodicBox box, Extent extent) {
     features.origins[v] = got->second;
     made.mesh.kinds[v] = VertexKind::segment;
   }
-  const auto& vertices = made.mesh.vertices;
   for (const PeriodicBox::Twins& twins : box.sides) {
     PeriodicSides sides{twins.markers.from, twins.markers.to, position_of(twins.translation), {}};
     for (const auto& [p, q] : twins.points) {
-      const auto a = std::lower_bound(vertices.begin(), vertices.end(), p);
-      const auto b = std::lower_bound(vertices.begin(), vertices.end(), q);
-      if (a == vertices.end() || b == vertices.end() || *a != p || *b != q) continue;  // not kept
-      sides.vertices.push_back({static_cast<std::uint32_t>(a - vertices.begin()),
-                                static_cast<std::uint32_t>(b - vertices.begin())});
+      const auto a = find_vertex(made.mesh, p), b = find_vertex(made.mesh, q);
+      if (a && b) sides.vertices.push_back({*a, *b});  // else not kept
     }
     features.periodic.push_back(std::move(sides));
   }

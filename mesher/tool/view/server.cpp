@@ -73,7 +73,7 @@ class SocketSession;
 struct Server::Impl {
   explicit Impl(Callbacks from) : callbacks(std::move(from)), acceptor(io), tick(io) {}
 
-  void listen(const PageAddress& wanted);
+  void listen(const PageAddress& wanted, bool may_move);
   void accept();
   void ask_whether_to_go_on();
   [[nodiscard]] bool is_own(const std::string& host) const {
@@ -299,7 +299,7 @@ std::optional<std::string> Server::Impl::allowed_path(const Request& request) co
   return target.substr(slash + 1);
 }
 
-void Server::Impl::listen(const PageAddress& wanted) {
+void Server::Impl::listen(const PageAddress& wanted, bool may_move) {
   const std::uint16_t port = wanted.port;
   token = wanted.token.empty() ? random_token() : wanted.token;
   try {
@@ -309,6 +309,10 @@ void Server::Impl::listen(const PageAddress& wanted) {
     acceptor.bind(endpoint);
     acceptor.listen();
   } catch (const boost::system::system_error& error) {
+    if (may_move) {
+      acceptor = tcp::acceptor(io);
+      return listen({}, false);
+    }
     throw mesher::Error(
         mesher::ErrorCode::bad_option,
         "--port " + std::to_string(port) + ": cannot listen on it: " + error.code().message());
@@ -337,21 +341,9 @@ void Server::Impl::ask_whether_to_go_on() {
   });
 }
 
-bool can_listen(std::uint16_t port) {
-  asio::io_context io;
-  tcp::acceptor acceptor(io);
-  const tcp::endpoint endpoint(asio::ip::address_v4::loopback(), port);
-  error_code error;
-  acceptor.open(endpoint.protocol(), error);
-  if (!error) acceptor.set_option(asio::socket_base::reuse_address(true), error);
-  if (!error) acceptor.bind(endpoint, error);
-  if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
-  return !error;
-}
-
-Server::Server(const PageAddress& wanted, Callbacks callbacks)
+Server::Server(const PageAddress& wanted, bool may_move, Callbacks callbacks)
     : impl_(std::make_unique<Impl>(std::move(callbacks))) {
-  impl_->listen(wanted);
+  impl_->listen(wanted, may_move);
 }
 
 Server::~Server() { impl_->clients.clear(); }

@@ -26,9 +26,6 @@ struct HttpReply {
   std::string saved_as;  // a name: to be saved, not shown
 };
 
-/// Whether a port of 127.0.0.1 is free.
-[[nodiscard]] bool can_listen(std::uint16_t port);
-
 class Server {
  public:
   using ClientId = std::uint64_t;
@@ -40,8 +37,9 @@ class Server {
     std::function<void(ClientId, std::string)> message;
   };
 
-  /// At `wanted`. Throws: Error(bad_option) if it cannot listen there.
-  Server(const PageAddress& wanted, Callbacks callbacks);
+  /// At `wanted`; if it cannot listen there and `may_move`, at any other address.
+  /// Throws: Error(bad_option) if it cannot listen.
+  Server(const PageAddress& wanted, bool may_move, Callbacks callbacks);
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;

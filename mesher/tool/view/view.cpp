@@ -66,23 +66,25 @@ view::HttpReply page_reply(Model& model, const std::string& path, const Model::S
 
 view::HttpReply edits_reply(Model& model, const std::string& script, const Model::Send& send) {
   const char* const json = "application/json";
+  const auto refused = [&](const mesher::Error& error) -> view::HttpReply {
+    return {409, json, view::text_of_json(view::json_of_error(error, view::Json())), ""};
+  };
   try {
     return {200, json, model.edit(script, send), ""};
   } catch (const mesher::Error& error) {
-    return {409, json, view::text_of_json(view::json_of_error(error, view::Json())), ""};
+    return refused(error);
   } catch (const std::bad_alloc&) {
-    const mesher::Error error(mesher::ErrorCode::too_many, "out of memory");
-    return {409, json, view::text_of_json(view::json_of_error(error, view::Json())), ""};
+    return refused({mesher::ErrorCode::too_many, "out of memory"});
   }
 }
 
 // The model behind the server: answers go to one page or to all.
 class View {
  public:
-  View(std::unique_ptr<Model> model, const view::PageAddress& wanted)
+  View(std::unique_ptr<Model> model, const view::PageAddress& wanted, bool may_move)
       : model_(std::move(model)),
         server_(
-            wanted,
+            wanted, may_move,
             {.get =
                  [this](const std::string& path) { return page_reply(*model_, path, sender(0)); },
              .edits =
@@ -174,8 +176,7 @@ std::unique_ptr<View> opened_view(const ViewArguments& args, const JournalArgume
   const auto last = args.new_address ? std::nullopt : view::read_page_address(file);
   view::PageAddress wanted = last.value_or(view::PageAddress());
   if (port) wanted.port = *port;
-  if (last && !port && !view::can_listen(wanted.port)) wanted = {};
-  auto view = std::make_unique<View>(std::move(model), wanted);
+  auto view = std::make_unique<View>(std::move(model), wanted, last && !port);
   if (!view::write_page_address(file, view->address()) && !args.quiet) {
     std::fprintf(stderr,
                  "%s: note: cannot be written: a view that is started again has another "
