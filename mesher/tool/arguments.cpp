@@ -261,8 +261,9 @@ void add_program_options(CLI::App& command, MeshArguments& args) {
       ->type_name("N");
 }
 
-void add_mesh_options(CLI::App& command, MeshArguments& args) {
-  add_program_options(command, args);
+namespace {
+
+void add_file_options(CLI::App& command, MeshArguments& args) {
   command
       .add_option(
           "-o", args.outputs,
@@ -272,6 +273,16 @@ void add_mesh_options(CLI::App& command, MeshArguments& args) {
           "boundary; may be repeated")
       ->type_name("OUT")
       ->allow_extra_args(false);
+  command.add_flag("--static", args.is_static,
+                   "Run gap-balls without the engine; the mesh is the same");
+  command.add_option("--stats", args.stats, "Figures as JSON")->type_name("FILE");
+}
+
+}  // namespace
+
+void add_mesh_options(CLI::App& command, MeshArguments& args, MeshGoes goes) {
+  add_program_options(command, args);
+  if (goes == MeshGoes::to_files) add_file_options(command, args);
   command
       .add_option("--order", args.order,
                   "2: second order, with nodes at the midpoints of edges, which stay straight, in\n"
@@ -305,9 +316,6 @@ void add_mesh_options(CLI::App& command, MeshArguments& args) {
       "--no-flat", args.no_flat,
       "In space: remove flat tetrahedra; the tetrahedra that replace them are Delaunay up to\n"
       "rounding ('check --near')");
-  command.add_flag("--static", args.is_static,
-                   "Run gap-balls without the engine; the mesh is the same");
-  command.add_option("--stats", args.stats, "Figures as JSON")->type_name("FILE");
   command.add_flag("--quiet", args.quiet, "Print nothing but errors");
 }
 
@@ -439,6 +447,23 @@ mesher::GroupNames names_of(const MeshArguments& args, int dimension) {
   });
   mesher::require_names(names);
   return names;
+}
+
+std::vector<mesher::PeriodicMarkers> periodic_of(const MeshArguments& args, int dimension) {
+  std::vector<mesher::PeriodicMarkers> pairs;
+  if (dimension == 3 && !args.periodic.empty()) {
+    throw Error(ErrorCode::bad_option, "--periodic is for the plane; INPUT is in space",
+                {args.input});
+  }
+  for (const std::string& text : args.periodic) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos) {
+      throw Error(ErrorCode::bad_option, "--periodic '" + text + "': expected FROM=TO");
+    }
+    pairs.push_back({marker_number("--periodic", text.substr(0, equals)),
+                     marker_number("--periodic", text.substr(equals + 1))});
+  }
+  return pairs;
 }
 
 template <int D>

@@ -9,6 +9,7 @@
 #include "input.hpp"
 #include "mesher/mesh.hpp"
 #include "mesher/meshing.hpp"
+#include "mesher/periodic.hpp"
 #include "outputs.hpp"
 
 namespace tool {
@@ -18,11 +19,12 @@ struct MeshArguments {
   std::string source;  // as it was called
   std::string format;  // empty: as its extension says
   std::vector<std::string> outputs;
-  std::string dimension;     // empty: that of the input
-  std::string rho;           // empty: the default of the dimension
-  std::string min_angle;     // degrees, in place of rho
-  std::string min_dihedral;  // degrees
-  std::string growth;        // of `mesh` alone
+  std::string dimension;              // empty: that of the input
+  std::string rho;                    // empty: the default of the dimension
+  std::string min_angle;              // degrees, in place of rho
+  std::string min_dihedral;           // degrees
+  std::string growth;                 // of `mesh` alone
+  std::vector<std::string> periodic;  // of `mesh` alone: FROM=TO, markers
   std::string rule = "radius-edge";
   std::vector<std::string> domain;  // the lower corner, the upper corner; or nothing
   std::string max_area, max_volume, max_size, sizes;
@@ -49,8 +51,11 @@ inline constexpr const char* kQualityHelp =
 /// `args` must outlive `command`.
 void add_program_options(CLI::App& command, MeshArguments& args);
 
+/// Where the meshes of a command go: to files that are named (-o, --static, --stats), or elsewhere.
+enum class MeshGoes { to_files, elsewhere };
+
 /// Adds these and what is to become of the mesh.
-void add_mesh_options(CLI::App& command, MeshArguments& args);
+void add_mesh_options(CLI::App& command, MeshArguments& args, MeshGoes goes = MeshGoes::to_files);
 
 /// A number from the command line. Throws: Error(bad_option) naming `option`.
 [[nodiscard]] double option_number(const std::string& option, const std::string& text);
@@ -99,6 +104,10 @@ void protect_inputs(const MeshArguments& args, const auto& input, Files& files) 
 
 /// The names that are given. Throws: Error(bad_option), also for names that no group can have.
 [[nodiscard]] mesher::GroupNames names_of(const MeshArguments& args, int dimension);
+
+/// The pairs of --periodic. Throws: Error(bad_option), also in space.
+[[nodiscard]] std::vector<mesher::PeriodicMarkers> periodic_of(const MeshArguments& args,
+                                                               int dimension);
 
 /// Opens the mesh outputs: those of `.node` with all files, if INPUT is of a format that has lines,
 /// or polygons that are meshed. Groups have the names of INPUT and those given.

@@ -7,6 +7,7 @@
 // Comments in it:
 //   # undo, # redo          what a live view made the update for
 //   # sizes CRC FOLDER      the backgrounds that its limits name are in FOLDER, with this content
+//   # start                 that it is of the script with which a live view began
 //   # folded N HASH         it stands for N updates, whose lines have this hash
 //
 // Guarantees:

@@ -35,15 +35,50 @@ void look_at_angles(const Input<3>& input, const mesher::Mesh<3>& all,
   run.guard = mesher::guard_report(all, input.graph(), options.rho);
 }
 
-// The mesh of the box; `run` is told by which algorithm, and what happened.
+// The mesh of the box, and of --periodic what pairs its sides, without the mesh.
 template <int D>
-mesher::Mesh<D> box_mesh(const MeshArguments& args, const Input<D>& input,
-                         const mesher::Options<D>& options, AnyRun& run, Progress& progress) {
+struct Box {
+  mesher::Mesh<D> mesh;
+  mesher::PeriodicBox periodic;
+};
+
+template <int D>
+Box<D> made_box(const MeshArguments& args, const Input<D>& input, const mesher::Options<D>& options,
+                mesher::RunReport& report, const mesher::RunControl& control) {
+  const auto pairs = periodic_of(args, D);
+  if constexpr (D == 2) {
+    if (!pairs.empty()) {
+      Box<D> box{{},
+                 mesher::periodic_box_mesh(input.graph(), pairs, options, &report, control,
+                                           !args.stats.empty())};
+      box.mesh = std::move(box.periodic.mesh);
+      return box;
+    }
+  }
+  return {mesher::box_mesh(input.graph(), options, &report, control, !args.stats.empty()), {}};
+}
+
+template <int D>
+Kept<D> kept_of_box(const MeshArguments& args, Box<D> box, const mesher::Options<D>& options,
+                    const Input<D>& input) {
+  if constexpr (D == 2) {
+    if (box.periodic.rounds > 0) {
+      box.periodic.mesh = std::move(box.mesh);
+      return mesher::periodic_domain_mesh(std::move(box.periodic), options.extent);
+    }
+  }
+  return mesher::domain_mesh(without_flat(args, std::move(box.mesh), options.rho), input.graph(),
+                             options.extent);
+}
+
+// `run` is told by which algorithm, and what happened.
+template <int D>
+Box<D> box_mesh(const MeshArguments& args, const Input<D>& input, const mesher::Options<D>& options,
+                AnyRun& run, Progress& progress) {
   mesher::RunReport report;
-  mesher::Mesh<D> mesh = locating(input, [&] {
+  Box<D> box = locating(input, [&] {
     const StopPolitely stop;
-    return mesher::box_mesh(input.graph(), options, &report, progress.control(),
-                            !args.stats.empty());
+    return made_box(args, input, options, report, progress.control());
   });
   if (report.gave_up) {
     progress.erase();
@@ -56,7 +91,8 @@ mesher::Mesh<D> box_mesh(const MeshArguments& args, const Input<D>& input,
   run.algorithm = name_of(report.algorithm);
   run.stats = report.stats;
   run.refinement = report.refinement;
-  return mesh;
+  run.rounds = box.periodic.rounds;
+  return box;
 }
 
 // What is said of a mesh is looked at only where it is said.
@@ -67,12 +103,11 @@ Result<D> mesh(const MeshArguments& args, const Input<D>& input, const mesher::O
   Result<D> result;
   auto& run = result.run;
   double start = mesher::now();
-  mesher::Mesh<D> all = box_mesh<D>(args, input, options, run, progress);
+  Box<D> box = box_mesh<D>(args, input, options, run, progress);
   run.seconds_total = mesher::now() - start;
-  if (!is_silent) look_at_angles(input, all, options, run);
+  if (!is_silent) look_at_angles(input, box.mesh, options, run);
   start = mesher::now();
-  result.mesh = mesher::domain_mesh(without_flat(args, std::move(all), options.rho), input.graph(),
-                                    options.extent);
+  result.mesh = kept_of_box<D>(args, std::move(box), options, input);
   run.seconds_total += mesher::now() - start;
   if (!is_silent) measure(result.mesh, options.rho, run);
   return result;
@@ -133,6 +168,12 @@ void add_mesh(CLI::App& app) {
           "at a distance d from edges of length e simplices are about as large as regular\n"
           "ones with edges of e + (G - 1) d, or smaller. For refine and svr")
       ->type_name("G");
+  mesh->add_option(
+          "--periodic", args->periodic,
+          "In the plane: the lines of marker TO are those of marker FROM, moved; their meshes\n"
+          "are the same, moved, and .msh pairs their nodes. May be repeated")
+      ->type_name("FROM=TO")
+      ->allow_extra_args(false);
   mesh->footer(
       std::string(
           "Every line is a union of edges. If lines enclose something, the output is what they\n"
@@ -164,6 +205,7 @@ void add_mesh(CLI::App& app) {
       "  mesher mesh pump.poly --max-volume 1e-4 -o pump.vtu\n"
       "  mesher mesh part.stl --surface -o part.msh\n"
       "  mesher mesh part.poly --name-marker 7=inlet --order 2 -o part.inp\n"
+      "  mesher mesh cell.poly --periodic 4=2 --periodic 1=3 -o cell.msh\n"
       "  mesher mesh scan.ply --algorithm svr -o scan.vtu\n"
       "  mesher mesh lake.poly --algorithm refine -o lake.vtu\n"
       "  mesher mesh cities.csv --domain -180 -90 180 90 --rho 2 --static -o cities.vtu");

@@ -154,6 +154,7 @@ void add_costs(const mesher::MeshStats& stats, double seconds_total, Json& json)
 // By which algorithm, and what happened in it.
 void add_algorithm(const AnyRun& run, Json& json) {
   if (!run.algorithm.empty()) json["algorithm"] = run.algorithm;
+  if (run.rounds > 0) json["periodic_rounds"] = run.rounds;
   if (!run.refinement) return;
   const mesher::SvrStats& s = *run.refinement;
   Json& events = json["refinement"];
@@ -288,6 +289,7 @@ void print_run(const Input<2>& input, const Run& run) {
   print_row("smallest angle", smallest_angle(run));
   print_row("largest radius-edge", format("%.4f", run.quality.max_radius_edge));
   if (!run.algorithm.empty()) print_row("algorithm", run.algorithm);
+  if (run.rounds > 0) print_row("periodic sides", "agree after " + counted(run.rounds, "round"));
   print_row("time", format("%.3f s", run.seconds_total));
 }
 

@@ -36,6 +36,7 @@ struct AnyRun {
   std::size_t faults = 0;    ///< seeds without a region of their own
   double seconds_total = 0;  ///< from the first point inserted to the finished mesh
   std::string algorithm;     ///< empty: there was no choice
+  std::size_t rounds = 0;    ///< meshes until periodic sides agreed; 0: there are none
   /// What happened in svr or refine, if it was asked for; `warped` and on are of svr.
   std::optional<mesher::SvrStats> refinement;
 };

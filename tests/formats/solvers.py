@@ -137,6 +137,23 @@ def look_by_gmsh(judge):
         gmsh.finalize()
 
 
+def look_at_twins_by_gmsh(judge, mesher):
+    """Version 4.1: gmsh itself reads no $Periodic of 2.2 back."""
+    write("cell.poly", CELL)
+    for order in ("1", "2"):
+        run(mesher, "mesh", "cell.poly", "-o", "twins.msh", "--periodic", "4=2", "--order", order,
+            "--quiet")
+        gmsh.initialize()
+        gmsh.option.setNumber("General.Verbosity", 0)
+        gmsh.open("twins.msh")
+        master, nodes, twins, _ = gmsh.model.mesh.getPeriodicNodes(1, 2)
+        judge.require(master == 4 and len(nodes) > 5, f"order {order}: the right side is periodic")
+        for a, b in zip(nodes, twins):
+            p, q = (gmsh.model.mesh.getNode(node)[0] for node in (a, b))
+            judge.require((p[0], *p[1:]) == (1, *q[1:]) and q[0] == 0, f"twins {p} and {q}")
+        gmsh.finalize()
+
+
 # Corners and the midpoint between them in .ele, .face and .edge of TetGen.
 TETGEN = {".ele": (4, [(2, 3), (0, 3), (0, 1), (1, 2), (1, 3), (0, 2)]),
           ".face": (3, [(1, 2), (2, 0), (0, 1)]), ".edge": (2, [(0, 1)])}
@@ -299,6 +316,91 @@ PostOperation {
 """
 
 
+# A cell that repeats to the right: its hole is near one side.
+CELL = """8 2 0 0
+1 0 0
+2 1 0
+3 1 1
+4 0 1
+5 .05 .4
+6 .2 .4
+7 .2 .6
+8 .05 .6
+5 1
+1 1 2 1
+2 2 3 2
+3 3 4 3
+4 4 1 4
+5 5 6 9
+0
+1
+1 .5 .5 5
+"""
+
+PERIODIC = """
+Group {
+  Cell = Region[5]; Right = Region[2]; Left = Region[4];
+  Domain = Region[{Cell, Right, Left}];
+}
+Function { f[] = (1 + 4 * Pi^2) * Sin[2 * Pi * X[]]; exact[] = Sin[2 * Pi * X[]]; }
+Constraint {
+  { Name Same; Case {
+    { Region Right; Type Link; RegionRef Left; Coefficient 1; Function Vector[X[] - 1, Y[], Z[]]; }
+  } }
+}
+FunctionSpace {
+  { Name Space; Type Form0;
+    BasisFunction {
+      { Name sn; NameOfCoef vn; Function BF_Node; Support Domain; Entity NodesOf[All]; }
+    }
+    Constraint { { NameOfCoef vn; EntityType NodesOf; NameOfConstraint Same; } } }
+}
+Jacobian { { Name Jac; Case { { Region All; Jacobian Vol; } } } }
+Integration { { Name Int; Case { { Type Gauss; Case {
+  { GeoElement Triangle; NumberOfPoints 7; } } } } } }
+Formulation {
+  { Name Reaction; Type FemEquation;
+    Quantity { { Name u; Type Local; NameOfSpace Space; } }
+    Equation {
+      Integral { [ Dof{d u}, {d u} ]; In Cell; Jacobian Jac; Integration Int; }
+      Integral { [ Dof{u}, {u} ]; In Cell; Jacobian Jac; Integration Int; }
+      Integral { [ -f[], {u} ]; In Cell; Jacobian Jac; Integration Int; } } }
+}
+Resolution {
+  { Name Solve; System { { Name A; NameOfFormulation Reaction; } }
+    Operation { Generate[A]; Solve[A]; SaveSolution[A]; } }
+}
+PostProcessing {
+  { Name Post; NameOfFormulation Reaction; Quantity {
+    { Name wrong;
+      Value { Integral { [ ({u} - exact[])^2 ]; In Cell; Jacobian Jac; Integration Int; } } }
+  } }
+}
+PostOperation {
+  { Name Tell; NameOfPostProcessing Post;
+    Operation { Print[ wrong[Cell], OnGlobal, Format Table, File "wrong.txt" ]; } }
+}
+"""
+
+
+def solve_periodic_by_getdp(judge, mesher):
+    """u - u'' = (1 + 4 pi^2) sin(2 pi x), the same at both sides: sin(2 pi x), whose derivative there
+    is not 0, as it would be without the link."""
+    write("cell.poly", CELL)
+    write("cell.pro", PERIODIC)
+    for sides in (["--periodic", "4=2"], []):
+        run(mesher, "mesh", "cell.poly", "-o", "cell.msh", "--msh-version", "2.2", "--max-area",
+            ".0005", "--quiet", *sides)
+        said = subprocess.run(["getdp", "cell.pro", "-msh", "cell.msh", "-solve", "Solve", "-pos",
+                               "Tell"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                              check=False).stdout
+        if sides:
+            wrong = float(open("wrong.txt", encoding="ascii").read().split()[-1])
+            judge.require(wrong < 1e-5, f"the periodic solution is off by {wrong}: {said}")
+        else:
+            judge.require("Error" in said, f"sides that do not fit together are linked: {said}")
+
+
 def solve_by_getdp(judge, mesher):
     """u = x / 4 in the square, by its groups in a .msh of version 2.2."""
     write("square.pro", POTENTIAL)
@@ -326,9 +428,11 @@ def main():
     for name, is_there, look in (
             ("meshio", meshio is not None, lambda: look_by_meshio(judge, mesher)),
             ("gmsh", gmsh is not None, lambda: look_by_gmsh(judge)),
+            ("gmsh", gmsh is not None, lambda: look_at_twins_by_gmsh(judge, mesher)),
             ("tetgen", shutil.which("tetgen"), lambda: look_at_tetgen(judge, mesher)),
             ("ccx", shutil.which("ccx"), lambda: solve_by_calculix(judge, mesher)),
-            ("getdp", shutil.which("getdp"), lambda: solve_by_getdp(judge, mesher))):
+            ("getdp", shutil.which("getdp"), lambda: solve_by_getdp(judge, mesher)),
+            ("getdp", shutil.which("getdp"), lambda: solve_periodic_by_getdp(judge, mesher))):
         if is_there:
             look()
         else:

@@ -437,3 +437,37 @@ if [[ -e $data/great_lakes.poly ]]; then
   expect 0 'at small angles' check great_lakes.1.node --rho 1.4142
   expect 0 'at small angles' check great_lakes.msh --rho 1.4142
 fi
+
+echo "== periodic sides"
+cat >cell.poly <<'END'
+5 2 0 0
+1 0 0
+2 1 0
+3 1 1
+4 0 1
+5 .04 .3
+4 1
+1 1 2 1
+2 2 3 2
+3 3 4 3
+4 4 1 4
+0
+END
+for engine in auto svr gap-balls; do
+  expect 0 'periodic sides        agree after' mesh cell.poly --algorithm $engine --periodic 4=2 \
+    --periodic 1=3 -o cell.1.node -o cell.1.msh
+  expect 0 '' check cell.1.node --input cell.poly --rho 1.4142
+  has cell.1.msh '^16 1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1$'
+  expect 0 '' mesh cell.poly --algorithm $engine --periodic 4=2 --periodic 1=3 --quiet -o again.msh
+  same cell.1.msh again.msh
+done
+expect 0 '"periodic_rounds": ' mesh cell.poly --periodic 4=2 --stats - -o cell.1.msh
+expect 0 '' mesh cell.poly --periodic 4=2 --msh-version 2.2 -o cell.1.msh
+has cell.1.msh '^Affine 1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1$'
+refuse 2 'point 4, moved as the pair 4=3 says, is no point of a line of marker 3' mesh cell.poly \
+  --periodic 4=3 -o out/x.msh
+refuse 2 'no line has the marker 9' mesh cell.poly --periodic 4=9 -o out/x.msh
+refuse 2 "--periodic '4': expected FROM=TO" mesh cell.poly --periodic 4 -o out/x.msh
+refuse 2 "--periodic 'x': not a whole number" mesh cell.poly --periodic x=2 -o out/x.msh
+expect 0 '' gen cube -o cell_in_space.poly
+refuse 2 '--periodic is for the plane' mesh cell_in_space.poly --periodic 4=2 -o out/x.msh

@@ -22,6 +22,33 @@ def areas(points, cells):
 
 
 class Plane(unittest.TestCase):
+    def test_periodic_sides(self):
+        rng = np.random.default_rng(5)
+        points = np.vstack((SQUARE, [(x * x, y) for x, y in .05 + .9 * rng.random((40, 2))]))
+        sides = dict(polylines=[[0, 1], [1, 2], [3, 2], [0, 3]], polyline_markers=[1, 2, 3, 4])
+        for order in (1, 2):
+            m = lm.mesh(points, **sides, periodic=[(4, 2), (1, 3)], order=order)
+            self.assertEqual([p.markers for p in m.periodic], [(4, 2), (1, 3)])
+            for pair, by in zip(m.periodic, ((1, 0), (0, 1))):
+                self.assertEqual(pair.translation.tolist(), list(by))
+                a, b = m.points[pair.points.T]
+                np.testing.assert_array_equal(a + by, b)
+                self.assertGreater(len(pair.points), 5)
+                for marker, column in zip(pair.markers, pair.points.T):
+                    of_marker = m.facets[m.facet_markers == marker][:, :2]
+                    self.assertEqual(set(of_marker.ravel().tolist()), set(column.tolist()))
+            self.assertTrue(all(f.holds for f in m.check(lm.Graph(points, **sides), rho=1.4143)))
+        self.assertEqual(lm.mesh(points, **sides).periodic, [])
+        with self.assertRaisesRegex(lm.GeometryError, "no line has the marker 77") as e:
+            lm.mesh(points, **sides, periodic=[(4, 77)])
+        self.assertEqual(e.exception.code, "bad_option")
+        for wrong, error in (([(1, 2, 3)], ValueError), ([1], ValueError), ("ab", TypeError),
+                             ([(1., 2.)], TypeError)):
+            with self.assertRaises(error):
+                lm.mesh(points, **sides, periodic=wrong)
+        with self.assertRaisesRegex(ValueError, "for the plane"):
+            lm.mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], periodic=[(1, 2)])
+
     def test_growth(self):
         points = np.concatenate((SQUARE, [(.5, .5), (.51, .5)]))
         counts = [len(lm.mesh(points, polylines=RING, growth=g).cells) for g in (None, 1.5, 1.2)]

@@ -295,7 +295,12 @@ typedef enum lm_graph_field {
   LM_GRAPH_REGIONS = 17, /* r x d F64 */
   LM_GRAPH_REGION_IDS = 18,
   LM_GRAPH_REGION_ATTRIBUTES = 19, /* r F64 */
-  LM_GRAPH_REGION_LIMITS = 20      /* r F64; 0: none */
+  LM_GRAPH_REGION_LIMITS = 20,     /* r F64; 0: none */
+  /* Declared to lie inside polygons: polygon i has the edges, and points, offsets[i] to ... */
+  LM_GRAPH_INNER_EDGE_OFFSETS = 21,  /* p + 1 I64 */
+  LM_GRAPH_INNER_EDGES = 22,         /* e x 2 I64: ids of the ends */
+  LM_GRAPH_INNER_POINT_OFFSETS = 23, /* p + 1 I64 */
+  LM_GRAPH_INNER_POINTS = 24         /* I64: ids */
 } lm_graph_field;
 
 LM_API lm_status lm_graph_dimension(lm_handle graph, int32_t* dimension);
@@ -371,6 +376,8 @@ typedef struct lm_options {
   size_t box_limits_count;
   const lm_box_limits* box_limits;
   double growth; /* of sizes from one cell to the next, 1.05 to 100; 0: any. Not for live meshes */
+  size_t periodic_count;   /* pairs of sides that fit together (mesher/periodic.hpp), for */
+  const int64_t* periodic; /* lm_mesh_make in the plane: periodic_count x 2 markers of lines */
 } lm_options;
 
 /* Meshes a graph, once. options, control: may be NULL. */
@@ -395,7 +402,14 @@ typedef enum lm_mesh_field {
   LM_MESH_EDGE_FEATURES = 14,
   LM_MESH_EDGE_FEATURE_IDS = 15,
   LM_MESH_POINT_SLOTS = 16, /* n U32, of a mesh from lm_live_mesh(); else no rows */
-  LM_MESH_CELL_SLOTS = 17
+  LM_MESH_CELL_SLOTS = 17,
+  /* Of each pair of periodic sides the markers, p x 2 I64, and the translation, p x 3 F64. Pair i
+   * has the twins offsets[i] to offsets[i + 1]: k x 2 U32, points of the first side, of the other.
+   */
+  LM_MESH_PERIODIC_MARKERS = 18,
+  LM_MESH_PERIODIC_TRANSLATIONS = 19,
+  LM_MESH_PERIODIC_OFFSETS = 20, /* p + 1 I64 */
+  LM_MESH_PERIODIC_POINTS = 21
 } lm_mesh_field;
 
 typedef enum lm_measure {

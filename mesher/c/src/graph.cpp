@@ -163,6 +163,8 @@ FlatGraph flattened(const Graph<D>& graph) {
   }
   flat.polygon_offsets.push_back(0);
   flat.loop_offsets.push_back(0);
+  flat.edge_offsets.push_back(0);
+  flat.inner_offsets.push_back(0);
   if constexpr (D == 3) {
     for (const Polygon& polygon : graph.polygons) {
       for (const auto& loop : polygon.loops) {
@@ -170,6 +172,13 @@ FlatGraph flattened(const Graph<D>& graph) {
         flat.loop_offsets.push_back(static_cast<std::int64_t>(flat.loop_points.size()));
       }
       flat.polygon_offsets.push_back(static_cast<std::int64_t>(flat.loop_offsets.size()) - 1);
+      for (const auto& [from, to] : polygon.edges) {
+        flat.inner_edges.push_back(number(from));
+        flat.inner_edges.push_back(number(to));
+      }
+      flat.edge_offsets.push_back(static_cast<std::int64_t>(flat.inner_edges.size() / 2));
+      for (const PointId p : polygon.points) flat.inner_points.push_back(number(p));
+      flat.inner_offsets.push_back(static_cast<std::int64_t>(flat.inner_points.size()));
     }
   }
   for (const Seed<D>& seed : graph.seeds) {
@@ -260,6 +269,14 @@ lm_array array_of(const Graph<D>& graph, GraphObject& object, std::int32_t field
       return rows_of(object.flat().attributes);
     case LM_GRAPH_REGION_LIMITS:
       return rows_of(object.flat().limits);
+    case LM_GRAPH_INNER_EDGE_OFFSETS:
+      return rows_of(object.flat().edge_offsets);
+    case LM_GRAPH_INNER_EDGES:
+      return rows_of(object.flat().inner_edges, 2);
+    case LM_GRAPH_INNER_POINT_OFFSETS:
+      return rows_of(object.flat().inner_offsets);
+    case LM_GRAPH_INNER_POINTS:
+      return rows_of(object.flat().inner_points);
     default:
       fail_unknown_field(field);
   }

@@ -16,6 +16,7 @@ namespace lm {
 struct FlatGraph {
   std::vector<std::int64_t> line_offsets, line_points;
   std::vector<std::int64_t> polygon_offsets, loop_offsets, loop_points;
+  std::vector<std::int64_t> edge_offsets, inner_edges, inner_offsets, inner_points;
   std::vector<double> holes, regions, attributes, limits;
   std::vector<std::int64_t> hole_ids, region_ids;
 };

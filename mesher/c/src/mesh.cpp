@@ -11,6 +11,7 @@
 #include "graph.hpp"
 #include "mesher/domain.hpp"
 #include "mesher/improve.hpp"
+#include "mesher/periodic.hpp"
 #include "mesher/read.hpp"
 #include "mesher/write.hpp"
 #include "options.hpp"
@@ -156,10 +157,28 @@ bool has_limits(const mesher::Graph<D>& graph) {
                      [](const auto& seed) { return seed.max_measure.has_value(); });
 }
 
-// As mesher::mesh(), and without flat tetrahedra if that is wanted.
+std::vector<mesher::PeriodicMarkers> periodic_of(const lm_options* user, int dimension) {
+  std::vector<mesher::PeriodicMarkers> pairs;
+  if (user == nullptr) return pairs;
+  const lm_options given = read_struct(user, "options");
+  if (given.periodic_count > 0 && dimension == 3) {
+    throw Failure(LM_BAD_ARGUMENT, "options->periodic is for the plane alone");
+  }
+  require_array(given.periodic, given.periodic_count, "options->periodic");
+  for (std::size_t i = 0; i < given.periodic_count; ++i) {
+    pairs.push_back({given.periodic[2 * i], given.periodic[2 * i + 1]});
+  }
+  return pairs;
+}
+
+// As mesher::mesh(), with periodic sides, and without flat tetrahedra, if that is wanted.
 template <int D>
 mesher::Meshed<D> meshed(const mesher::Graph<D>& graph, const mesher::Options<D>& options,
-                         bool no_flat, const mesher::RunControl& control) {
+                         const std::vector<mesher::PeriodicMarkers>& periodic, bool no_flat,
+                         const mesher::RunControl& control) {
+  if constexpr (D == 2) {
+    if (!periodic.empty()) return mesher::periodic_mesh(graph, periodic, options, control);
+  }
   if constexpr (D == 3) {
     if (no_flat) {
       mesher::Meshed<D> made;
@@ -178,8 +197,9 @@ lm_handle make(const GraphFile<D>& file, const lm_options* options, const lm_con
   mesher::Options<D> all = options_of<D>(options);
   if (!has_limits(file.graph)) all.region_areas = mesher::RegionAreas::ignored;  // a faster way
   const bool no_flat = options != nullptr && read_struct(options, "options").no_flat != 0;
-  mesher::Meshed<D> made =
-      with_locations(file, [&] { return meshed(file.graph, all, no_flat, control_of(control)); });
+  const auto periodic = periodic_of(options, D);
+  mesher::Meshed<D> made = with_locations(
+      file, [&] { return meshed(file.graph, all, periodic, no_flat, control_of(control)); });
   const mesher::Algorithm algorithm = made.report.algorithm;
   const bool tells = !made.mesh.features.origins.empty();
   auto object =
@@ -355,6 +375,20 @@ const std::vector<Feature>& MeshIn<D>::origins() {
   return *origins_;
 }
 
+// In second order, of the vertices alone.
+template <int D>
+auto MeshIn<D>::periodic_made() -> const FlatSides& {
+  if (periodic_) return *periodic_;
+  FlatSides all;
+  for (const mesher::PeriodicSides& sides : corners().features.periodic) {
+    all.markers.push_back({sides.from, sides.to});
+    all.translations.push_back(sides.translation);
+    all.points.insert(all.points.end(), sides.vertices.begin(), sides.vertices.end());
+    all.offsets.push_back(static_cast<std::int64_t>(all.points.size()));
+  }
+  return periodic_.emplace(std::move(all));
+}
+
 template <int D>
 lm_array MeshIn<D>::array(std::int32_t field) {
   const std::lock_guard lock(making_);
@@ -402,6 +436,14 @@ lm_array MeshIn<D>::array(std::int32_t field) {
       return rows_of(point_slots);
     case LM_MESH_CELL_SLOTS:
       return rows_of(cell_slots);
+    case LM_MESH_PERIODIC_MARKERS:
+      return rows_of(periodic_made().markers);
+    case LM_MESH_PERIODIC_TRANSLATIONS:
+      return rows_of(periodic_made().translations);
+    case LM_MESH_PERIODIC_OFFSETS:
+      return rows_of(periodic_made().offsets);
+    case LM_MESH_PERIODIC_POINTS:
+      return rows_of(periodic_made().points);
     default:
       fail_unknown_field(field);
   }

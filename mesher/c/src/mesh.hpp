@@ -54,6 +54,14 @@ class MeshIn {
   [[nodiscard]] const FlatFacets& edges_made();
   [[nodiscard]] const std::vector<mesher::Feature>& origins();
 
+  struct FlatSides {
+    std::vector<std::array<std::int64_t, 2>> markers;
+    std::vector<std::array<double, 3>> translations;
+    std::vector<std::int64_t> offsets{0};
+    std::vector<std::array<std::uint32_t, 2>> points;
+  };
+  [[nodiscard]] const FlatSides& periodic_made();
+
   using Nodes = std::array<std::uint32_t, mesher::SecondOrder<D>::kCellNodes>;
   MeshIn(std::shared_ptr<MeshIn> first, const mesher::SecondOrder<D>& second);
   [[nodiscard]] FlatFacets with_nodes(const FlatFacets& corners, std::size_t columns) const;
@@ -65,6 +73,7 @@ class MeshIn {
   std::recursive_mutex making_;
   std::optional<std::vector<Simplex>> neighbours_;
   std::optional<FlatFacets> facets_, edges_;
+  std::optional<FlatSides> periodic_;
   std::optional<std::vector<mesher::Feature>> origins_;
   std::optional<std::vector<std::int64_t>> no_markers_;
   std::optional<std::vector<double>> no_regions_;

@@ -16,6 +16,8 @@ inline constexpr std::size_t kLargestStruct = 4096;
 /// (A struct that grows later gets the size here that it has now.)
 template <class T>
 inline constexpr std::size_t kFirstSize = sizeof(T);
+template <>
+inline constexpr std::size_t kFirstSize<lm_options> = offsetof(lm_options, periodic_count);
 
 template <class T>
 [[nodiscard]] bool is_size_of(std::size_t size) noexcept {

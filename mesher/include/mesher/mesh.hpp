@@ -212,6 +212,15 @@ struct MeshFace {
   friend bool operator==(const MeshFace&, const MeshFace&) = default;
 };
 
+/// Two sides of a mesh that fit together (periodic.hpp): lines of one marker, and the same lines,
+/// moved.
+struct PeriodicSides {
+  std::int64_t from = 0, to = 0;                         ///< the markers
+  Position translation{};                                ///< from `from` to `to`
+  std::vector<std::array<std::uint32_t, 2>> vertices{};  ///< of `from`, of `to`; ascending
+  friend bool operator==(const PeriodicSides&, const PeriodicSides&) = default;
+};
+
 /// Features of a mesh. An empty array means: not known.
 struct MeshFeatures {
   /// One per vertex: its input point, or the line that it lies on, or in space the polygon if it is
@@ -222,6 +231,7 @@ struct MeshFeatures {
   std::vector<MeshEdge> edges;        ///< ascending by (low, high), without duplicates
   std::vector<MeshFace> faces;        ///< in space; ascending by key(), without duplicates
   GroupNames names{};                 ///< of markers of edges and faces, and of regions
+  std::vector<PeriodicSides> periodic{};
 
   /// Whether there are none; names alone are none.
   [[nodiscard]] bool empty() const {

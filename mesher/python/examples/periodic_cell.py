@@ -1,8 +1,7 @@
-"""A periodic cell: a square with a hole whose left and right sides have the same vertices.
+"""A periodic cell: a square with a hole whose opposite sides have the same vertices, so that copies
+of it fit together to the right and upward.
 
     periodic_cell.py [OUTPUT]
-
-Mesh, give both sides the vertices that either has, and mesh again, until they agree.
 """
 import sys
 
@@ -19,41 +18,32 @@ def hole(n=24):
     return CENTRE + RADIUS * np.column_stack((np.cos(angle), np.sin(angle)))
 
 
-def cell(heights):
-    """The mesh of the square whose left and right sides have points at these heights."""
-    sides = [np.column_stack((np.full(len(heights), x), heights)) for x in (0., 1.)]
+def cell():
     ring = hole()
-    points = np.vstack(([(0, 0), (1, 0), (1, 1), (0, 1)], *sides, ring))
-    left = range(4, 4 + len(heights))
-    right = range(4 + len(heights), 4 + 2 * len(heights))
-    around = list(range(len(points) - len(ring), len(points)))
-    return lm.mesh(points, polylines=[[0, 1], [1, *right, 2], [2, 3], [0, *left, 3],
-                                      [*around, around[0]]],
+    points = np.vstack(([(0, 0), (1, 0), (1, 1), (0, 1)], ring))
+    around = list(range(4, 4 + len(ring)))
+    mesh = lm.mesh(points, polylines=[[0, 1], [1, 2], [3, 2], [0, 3], [*around, around[0]]],
                    polyline_markers=[1, 2, 3, 4, 5], holes=[CENTRE], min_angle=25,
-                   size=lambda at: .02 + .1 * np.abs(at[:, 0] - .9))
+                   size=lambda at: .02 + .1 * np.abs(at[:, 0] - .9), periodic=[(4, 2), (1, 3)])
+    return mesh.name(facets={"left": 4, "right": 2, "bottom": 1, "top": 3, "hole": 5})
 
 
-def heights_on(mesh, marker):
-    """The heights of the vertices inside a side, ascending."""
-    y = mesh.points[np.unique(mesh.facets[mesh.facet_markers == marker]), 1]
-    return np.unique(y[(y > 0) & (y < 1)])
-
-
-def periodic(most=20):
-    heights = np.empty(0)
-    for rounds in range(1, most + 1):
-        mesh = cell(heights)
-        right, left = heights_on(mesh, 2), heights_on(mesh, 4)
-        if np.array_equal(left, right):
-            return mesh.name(facets={"right": 2, "left": 4, "hole": 5}), rounds
-        heights = np.union1d(left, right)
-    raise RuntimeError(f"the sides differ after {most} rounds")
+def unknowns(mesh):
+    """For each point the number of its unknown: twins have one."""
+    number = np.arange(len(mesh.points))
+    for sides in mesh.periodic:
+        first, second = number[sides.points.T]
+        for a, b in zip(first, second):  # corners are in two pairs of sides
+            number[number == b] = a
+    return np.unique(number, return_inverse=True)[1]
 
 
 def main():
-    mesh, rounds = periodic()
-    print(f"{len(mesh.cells)} triangles, {len(heights_on(mesh, 2))} vertices in each side, "
-          f"after {rounds} rounds")
+    mesh = cell()
+    for sides in mesh.periodic:
+        print(f"{len(sides.points)} twins, {sides.translation.tolist()} from each other")
+    print(f"{len(mesh.cells)} triangles, {len(mesh.points)} vertices, "
+          f"{unknowns(mesh).max() + 1} unknowns")
     if len(sys.argv) > 1:
         mesh.write(sys.argv[1])
 

@@ -14,11 +14,13 @@ from ._c import Progress
 from ._errors import Busy, Cancelled, Error, Feature, FileError, GeometryError
 from ._graph import Graph
 from ._live import Change, Compact, LiveMesh
-from ._mesh import Finding, Mesh, mesh
+from ._mesh import Finding, Mesh, PeriodicSides, mesh
 from ._sizes import Sizes
+from ._view import View
 
 __version__: str = _c.c.version
 NO_CELL: int = _c.NONE
 
 __all__ = ["Busy", "Cancelled", "Change", "Compact", "Error", "Feature", "FileError", "Finding",
-           "GeometryError", "Graph", "LiveMesh", "Mesh", "NO_CELL", "Progress", "Sizes", "mesh"]
+           "GeometryError", "Graph", "LiveMesh", "Mesh", "NO_CELL", "PeriodicSides",
+           "Progress", "Sizes", "View", "mesh"]

@@ -202,15 +202,18 @@ def split_regions(regions: Any, dimension: int) -> Tuple[NDArray[Any], NDArray[A
             np.ascontiguousarray(all_[:, dimension + 1]))
 
 
-def polygon_struct(polygon: Any, marker: int) -> Tuple[Any, _c.Polygon]:
+def polygon_struct(polygon: Any, marker: int, inner_edges: Any = (),
+                   inner_points: Any = ()) -> Tuple[Any, _c.Polygon]:
     """A polygon for the C interface, and what to keep meanwhile."""
     is_loop = len(polygon) == 0 or np.ndim(polygon[0]) == 0
     loops = [integers(loop, None, "a loop") for loop in ([polygon] if is_loop else polygon)]
     sizes = np.array([len(loop) for loop in loops], np.uintp)
     points = np.concatenate(loops)
-    struct = _c.Polygon(ctypes.sizeof(_c.Polygon), len(loops), address(sizes), address(points), 0,
-                        None, 0, None, marker)
-    return (sizes, points), struct
+    edges = np.array(inner_edges, np.int64).reshape(-1, 2)
+    inner = np.array(inner_points, np.int64)
+    struct = _c.Polygon(ctypes.sizeof(_c.Polygon), len(loops), address(sizes), address(points),
+                        len(edges), address(edges), len(inner), address(inner), marker)
+    return (sizes, points, edges, inner), struct
 
 
 # --- Geometries of others ------------------------------------------------------------------------

@@ -20,6 +20,7 @@ from ._errors import Busy
 from ._graph import Graph, graph_of, polygon_struct, split_regions
 from ._mesh import Mesh, options_of
 from ._sizes import Sizes, sizes_of
+from ._view import Limit, View
 
 _FIELDS = {"points": 0, "point_kinds": 1, "cells": 2, "neighbors": 3, "point_used": 4,
            "cell_used": 5, "cell_kept": 6, "facets": 7, "facet_ids": 9, "facet_used": 10}
@@ -266,6 +267,18 @@ class LiveMesh:
                                     min_dihedral, max_area, max_volume, size, region_limits,
                                     max_vertices, extent, "automatic")
         self._sizes: List[Optional[Sizes]] = [sizes]  # callbacks live as long as they may be called
+        # For views: the limits of size, everywhere and then in boxes, those announced, and the
+        # options of the command line tool.
+        self._limits = [Limit(float(options.max_measure), sizes, None)]
+        self._limits_announced: List[Limit] = []
+        self._tool_options = [
+            word for name, value in (("--min-angle", min_angle),
+                                     ("--rho", None if min_angle else rho),
+                                     ("--min-dihedral", min_dihedral),
+                                     ("--max-vertices", max_vertices or None))
+            if value is not None for word in (name, repr(value))]
+        self._tool_options += ["--region-areas"] if region_limits else []
+        self._tool_options += ["--box"] if extent == "box" else []
         self._handle = _c.new(c.live_new, self.dimension, byref(options))
         self._value = self._handle.value
         check(c.live_keep_undo(self._value, integer(undo, "undo", 0, sys.maxsize)))
@@ -416,13 +429,17 @@ class LiveMesh:
             raise TypeError("max_area is for the plane, max_volume for space")
         limit, sizes = sizes_of(size, lo, hi)
         given = max_area if self.dimension == 2 else max_volume
-        self._call(c.live_limit, limit if given is None else float(given),
-                   0 if sizes is None else sizes._handle.value, address(place))
+        largest = limit if given is None else float(given)
+        self._call(c.live_limit, largest, 0 if sizes is None else sizes._handle.value,
+                   address(place))
         self._sizes.append(sizes)
+        self._limits_announced.append(
+            Limit(largest, sizes, None if place is None else tuple(place.ravel().tolist())))
 
     def discard(self) -> None:
         """Discards all announcements."""
         self._call(c.live_discard)
+        self._limits_announced.clear()
 
     # --- Updates ---------------------------------------------------------------------------------
 
@@ -437,12 +454,15 @@ class LiveMesh:
                 at_control, keep = _c.control(run, timeout)
                 status = function(self._value, at_control, byref(value))
                 if value.value:
+                    self._take_limits()
                     change._handle = Handle(value.value)
                     if self._arrays:
                         self._remember(change)
                 elif status:
+                    self._drop_limits_discarded()
                     run.check(status, self.dimension)
                 else:
+                    self._take_limits()
                     self._arrays.clear()
                     self._unseen.clear()
                     raise MemoryError("the edits were made; there is no memory for their change")
@@ -452,6 +472,22 @@ class LiveMesh:
         finally:
             self._lock.release()
         return change
+
+    def _take_limits(self) -> None:
+        """Limits that were announced are those of now."""
+        for limit in self._limits_announced:
+            if limit.box is None:
+                self._limits.clear()
+            self._limits.append(limit)
+        self._limits_announced.clear()
+
+    def _drop_limits_discarded(self) -> None:
+        info = _c.LiveInfo(ctypes.sizeof(_c.LiveInfo))
+        if c.live_describe(self._value, byref(info)) == 0 and not info.pending:
+            self._limits_announced.clear()
+
+    def _limits_now(self) -> Tuple[Limit, ...]:
+        return tuple(self._limits)
 
     def _remember(self, change: Change) -> None:
         self._unseen.append(change)
@@ -598,6 +634,19 @@ class LiveMesh:
         u[slot_of] on it. Costs the mesh, not the change."""
         mesh = self.mesh()
         return Compact(mesh.points, mesh.cells, mesh.point_slots)
+
+    def view(self, *, browser: bool = True, port: int = 0, tool: str = "mesher") -> View:
+        """Opens a page in a browser where this mesh can be edited with the mouse: see `View`.
+
+        browser: whether to open the address; `view().address` has it. port: of 127.0.0.1; 0: any
+        that is free. tool: the command line tool `mesher`, a name or a path. Limits of size by
+        `Sizes.function` and `Sizes.read` cannot be shown. Takes the time of a first run, on the
+        input as of the last update.
+
+        Raises: FileNotFoundError if there is no such tool; Error if it does not start; ValueError
+        for limits of size that cannot be shown.
+        """
+        return View(self, tool, integer(port, "port", 0, 65535), browser)
 
     @property
     def faults(self) -> list[str]:

@@ -7,13 +7,13 @@ import os
 import time
 from collections.abc import Callable, Mapping, Sequence
 from ctypes import byref, c_size_t, c_uint64
-from typing import Any, NamedTuple, Optional, Union
+from typing import Any, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _c
-from ._c import Handle, c, check, dimension_of, integer, path_of
+from ._c import Handle, address, c, check, dimension_of, integer, integers, path_of
 from ._graph import Graph, graph_of
 from ._sizes import Sizes, sizes_of
 
@@ -32,6 +32,15 @@ class Finding(NamedTuple):
     property: str
     holds: bool
     detail: str
+
+
+class PeriodicSides(NamedTuple):
+    """Two sides that fit together. markers: of the first and of the second; translation: d float64,
+    from the first to the second; points: k x 2 uint32, of the first and their twins."""
+
+    markers: Tuple[int, int]
+    translation: NDArray[np.float64]
+    points: NDArray[np.uint32]
 
 
 class Mesh:
@@ -158,6 +167,13 @@ class Mesh:
     def edge_markers(self) -> NDArray[np.int64]:
         """e int64."""
         return self._array(13)
+
+    @property
+    def periodic(self) -> list[PeriodicSides]:
+        """Of a mesh made with periodic sides, the pairs."""
+        markers, by, ends, points = map(self._array, (18, 19, 20, 21))
+        return [PeriodicSides((int(m[0]), int(m[1])), by[i, :self.dimension],
+                              points[ends[i]:ends[i + 1]]) for i, m in enumerate(markers)]
 
     @property
     def point_slots(self) -> NDArray[np.uint32]:
@@ -348,9 +364,9 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
          point_markers: Any = None, min_angle: Optional[float] = None,
          rho: Optional[float] = None, min_dihedral: Optional[float] = None,
          max_area: Optional[float] = None, max_volume: Optional[float] = None, size: Any = None,
-         growth: Optional[float] = None, repair: bool = False, merge: bool = True,
-         region_limits: bool = True,
-         no_flat: bool = True, extent: str = "enclosed", bounds: Any = None,
+         growth: Optional[float] = None, periodic: Any = None, repair: bool = False,
+         merge: bool = True, region_limits: bool = True, no_flat: bool = True,
+         extent: str = "enclosed", bounds: Any = None,
          algorithm: str = "automatic", order: int = 1,
          max_vertices: int = 0, progress: Optional[Callable[[_c.Progress], Any]] = None,
          timeout: Optional[float] = None) -> Mesh:
@@ -364,10 +380,13 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
     min_angle: degrees, at most 29.6, 20.7 by default; or rho: bound of circumradius over shortest
     edge. max_area, max_volume: of a cell. size: the edge length of a cell: a number, a function of
     n x d arrays (sampled), (points, sizes), or `Sizes`. region_limits: whether the limits of
-    regions count. growth: sizes grow by at most this factor from one cell to the next, 1.05 to 100. no_flat: in space, tetrahedra without volume, which Delaunay meshes have, are
-    removed where that is possible. extent: "enclosed" or "box". bounds: 2 x d, the box in which
-    points may lie. algorithm: "automatic", "refine", "svr", "gap_balls". max_vertices: more are an
-    error. order: 2 for a mesh of second order, see `Mesh`.
+    regions count. periodic, in the plane: pairs of markers of lines; those of the second are
+    those of the first, moved, and so are their meshes: see `Mesh.periodic`. growth: sizes grow
+    by at most this factor from one cell to the next, 1.05 to 100. no_flat: in space, tetrahedra
+    without volume, which Delaunay meshes have, are removed where that is possible. extent:
+    "enclosed" or "box". bounds: 2 x d, the box in which points may lie. algorithm: "automatic",
+    "refine", "svr", "gap_balls". max_vertices: more are an error. order: 2 for a mesh of second
+    order, see `Mesh`.
 
     repair: lines and polygons may cross, touch and overlap. progress: called with a `Progress`; the
     run stops if it returns False. timeout: seconds. Ctrl-C stops it, too.
@@ -398,6 +417,11 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
                                 algorithm, deadline)
     options.growth = _at(growth, 0, "growth")
     options.no_flat = int(no_flat)
+    pairs = None if periodic is None else integers(periodic, 2, "periodic")
+    if pairs is not None and graph.dimension == 3:
+        raise ValueError("periodic sides are for the plane")
+    options.periodic_count = 0 if pairs is None else len(pairs)
+    options.periodic = address(pairs)
     if timeout is not None:
         timeout = max(deadline - time.monotonic(), 0.)
     with _c.Run(progress) as run:
@@ -407,5 +431,5 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
         made = Handle(value.value) if status == 0 else None
         run.check(status, graph.dimension)
         assert made is not None
-        del keep, sizes
+        del keep, sizes, pairs
     return Mesh(made) if order == 1 else Mesh(made).second_order()

@@ -27,8 +27,10 @@ class Sizes:
     >>> s = Sizes.function(lambda xy: 0.1 + 0.2 * xy[:, 0], slope=0.2, least=0.1, dimension=2)
     """
 
-    def __init__(self, handle: _c.Handle, dimension: int, keep: Any = None) -> None:
+    def __init__(self, handle: _c.Handle, dimension: int, keep: Any = None,
+                 samples: Optional[Tuple[NDArray[Any], NDArray[Any]]] = None) -> None:
         self._handle = handle
+        self._samples = samples  # those that it was made of
         self._keep = keep  # a callback, for as long as the library may call it
         self.dimension = dimension
 
@@ -46,7 +48,8 @@ class Sizes:
         h = floats(sizes, None, "sizes")
         if len(h) != len(at):
             raise ValueError(f"{len(at)} points, but {len(h)} sizes")
-        return cls(_c.new(c.sizes_samples, dimension, len(at), address(at), address(h)), dimension)
+        return cls(_c.new(c.sizes_samples, dimension, len(at), address(at), address(h)), dimension,
+                   samples=(at.copy(), h.copy()))
 
     @classmethod
     def function(cls, size: Callable[[NDArray[Any]], Any], slope: float, least: float,

@@ -6,6 +6,9 @@
 // surface. The nodes, in their order, are all of the first region. If there is a group, every
 // entity is in one: readers take a file without groups, or all of it in groups.
 //
+// $Periodic pairs the curves of periodic sides, and their nodes: first that of the curve `to`, then
+// its twin, which the affine map moves there.
+//
 // Names stand in the order facets, regions, in space edges: gmshToFoam takes the first name of a
 // number, whatever its dimension, and patches are what it needs names for.
 #include <algorithm>
@@ -63,11 +66,12 @@ class MshWriter {
     if (is_old) {
       write_old_nodes();
       write_old_elements();
-      return;
+    } else {
+      write_entities();
+      write_nodes();
+      write_elements();
     }
-    write_entities();
-    write_nodes();
-    write_elements();
+    write_periodic(is_old);
   }
 
  private:
@@ -126,6 +130,7 @@ class MshWriter {
     const GroupNumbers<std::int64_t> numbers(markers);
     for (auto& [marker, elements] : by_marker) {
       const std::string name = marker == 0 ? "" : name_of(dimension, marker);
+      if (dimension == kCurve) curves_[marker] = entities_[kCurve].size() + kFirst;
       add_entity({dimension, type, name, numbers.of(marker), {}, std::move(elements)});
     }
   }
@@ -259,11 +264,61 @@ class MshWriter {
     file_ << "$EndElements\n";
   }
 
+  // --- Periodic sides --------------------------------------------------------------------------
+
+  struct PeriodicNodes {
+    std::size_t from = 0, to = 0;  // curves
+    const PeriodicSides* sides = nullptr;
+    std::vector<std::array<std::uint32_t, 2>> nodes;  // of `from`, of `to`
+  };
+
+  // With midpoints, in second order: one between twins is the twin of the one between the others.
+  [[nodiscard]] PeriodicNodes periodic_nodes(const PeriodicSides& sides) const {
+    PeriodicNodes found{curves_.at(sides.from), curves_.at(sides.to), &sides, sides.vertices};
+    if (how_.second == nullptr) return found;
+    std::map<std::uint32_t, std::uint32_t> twins;
+    for (const auto& [a, b] : sides.vertices) twins.emplace(a, b);
+    for (const MeshEdge& edge : features_.edges) {
+      if (edge.marker != sides.from) continue;
+      const auto low = twins.find(edge.low), high = twins.find(edge.high);
+      if (low == twins.end() || high == twins.end()) continue;
+      const auto [a, b] = std::minmax(low->second, high->second);
+      found.nodes.push_back(
+          {how_.second->between(edge.low, edge.high), how_.second->between(a, b)});
+    }
+    return found;
+  }
+
+  void write_periodic(bool is_old) {
+    std::vector<PeriodicNodes> all;
+    for (const PeriodicSides& sides : features_.periodic) {
+      if (curves_.contains(sides.from) && curves_.contains(sides.to)) {
+        all.push_back(periodic_nodes(sides));
+      }
+    }
+    if (all.empty()) return;
+    file_ << "$Periodic\n" << all.size() << '\n';
+    for (const PeriodicNodes& pair : all) {
+      file_ << kCurve << ' ' << pair.to << ' ' << pair.from << '\n';
+      file_ << (is_old ? "Affine" : "16");
+      for (std::size_t i = 0; i < 16; ++i) {
+        const bool moves = i % 4 == 3 && i < 12;
+        file_ << ' ' << (moves ? pair.sides->translation[i / 4] : i % 5 == 0 ? 1.0 : 0.0);
+      }
+      file_ << '\n' << pair.nodes.size() << '\n';
+      for (const auto& [a, b] : pair.nodes) {
+        file_ << b + kFirst << ' ' << a + kFirst << '\n';
+      }
+    }
+    file_ << "$EndPeriodic\n";
+  }
+
   const Mesh<D>& mesh_;
   const MeshFeatures& features_;
   const WriteHow<D>& how_;
   TextFile& file_;
   std::array<std::vector<Entity>, D + 1> entities_;  // by dimension
+  std::map<std::int64_t, std::size_t> curves_;       // by marker, from 1
 };
 
 }  // namespace

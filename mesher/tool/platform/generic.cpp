@@ -71,6 +71,12 @@ std::FILE* open_to_append(const std::string& path) noexcept {
   return file;
 }
 
+std::FILE* create_private(const std::string& path) noexcept {
+  return std::fopen(path.c_str(), "wxb");
+}
+
+std::uint64_t parent_number() noexcept { return 0; }
+
 bool lock(std::FILE*) noexcept { return true; }
 
 int sync(std::FILE* file) noexcept { return std::fflush(file) == 0 ? 0 : errno; }

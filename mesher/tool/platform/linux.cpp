@@ -101,6 +101,17 @@ std::FILE* open_to_append(const std::string& path) noexcept {
   return file;
 }
 
+std::FILE* create_private(const std::string& path) noexcept {
+  const int descriptor =
+      ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, S_IRUSR | S_IWUSR);
+  if (descriptor < 0) return nullptr;
+  std::FILE* const file = ::fdopen(descriptor, "wb");
+  if (file == nullptr) ::close(descriptor);
+  return file;
+}
+
+std::uint64_t parent_number() noexcept { return static_cast<std::uint64_t>(::getppid()); }
+
 bool lock(std::FILE* file) noexcept { return ::flock(::fileno(file), LOCK_EX | LOCK_NB) == 0; }
 
 int sync(std::FILE* file) noexcept { return ::fdatasync(::fileno(file)) == 0 ? 0 : errno; }

@@ -28,6 +28,9 @@ void return_failures_of_writes() noexcept;
 
 /// Whether the standard error is a terminal.
 [[nodiscard]] bool shows_errors_to_people() noexcept;
+/// A number of the process that started this one, which changes when that ends; 0 where the system
+/// does not tell.
+[[nodiscard]] std::uint64_t parent_number() noexcept;
 /// The most memory that the process has had; 0: unknown.
 [[nodiscard]] std::uint64_t peak_memory_bytes() noexcept;
 
@@ -45,6 +48,9 @@ void keep_freed_memory() noexcept;
 [[nodiscard]] int sync(std::FILE* file) noexcept;
 /// The same for the name of a file, as far as the system can.
 void sync_folder_of(const std::string& path) noexcept;
+/// Makes a file that only its owner can read, where the system has that; null if the name is taken,
+/// or if that fails.
+[[nodiscard]] std::FILE* create_private(const std::string& path) noexcept;
 /// Drops what is behind the first `bytes` of the file, which is at `path`; 0, or the error.
 [[nodiscard]] int shorten(std::FILE* file, const std::string& path, std::uint64_t bytes) noexcept;
 

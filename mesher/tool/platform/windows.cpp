@@ -76,6 +76,12 @@ std::FILE* open_to_append(const std::string& path) noexcept {
   return file;
 }
 
+std::FILE* create_private(const std::string& path) noexcept {
+  return std::fopen(path.c_str(), "wxb");
+}
+
+std::uint64_t parent_number() noexcept { return 0; }
+
 bool lock(std::FILE* file) noexcept {
   const auto handle_of = reinterpret_cast<HANDLE>(_get_osfhandle(_fileno(file)));
   return LockFile(handle_of, 0, 1U << 30, 1, 0) != 0;  // a byte beyond all: others may read

@@ -20,6 +20,7 @@ const settings = {mode: 'region', changes: true, all: false, poor: false, below:
   }};
 
 let mesh = null, view = null, state = null, seeds = [];
+let limits = {everywhere: null, boxes: []};  // of size: the last box that has a place counts there
 let tool = 'move', draft = [], hover = null, selected = null;
 let problems = [];  // errors: {text, places, features}
 let drag = null;    // {id, wanted, sent, tag}
@@ -42,6 +43,7 @@ const TOOLS = {
   polygon: ['Polygon', 'Click its corners; Enter or a double click closes it'],
   hole: ['Hole', 'Click where nothing is to be meshed'],
   region: ['Region', 'Click into a region: it gets the attribute at the right'],
+  limit: ['Limit', 'Drag a box: the limit of size at the right holds there'],
   delete: ['Delete', 'Click a point, line, hole or region; lines go with their points'],
 };
 const ACTIONS = {
@@ -80,7 +82,9 @@ function choose(name) {
 
 // --- The server ----------------------------------------------------------------------------------
 
-const wire = new Wire(receive, (lost) => { $('lost').hidden = !lost; });
+const wire = new Wire(receive, show_lost);
+let run = null;       // of the server: another one after it was started again
+let lost_at = null;   // how many updates there were when the server was gone
 
 function command(what) {
   const tag = wire.send(what);
@@ -88,10 +92,46 @@ function command(what) {
   return tag;
 }
 
+function show_lost(lost) {
+  $('lost').hidden = !lost;
+  if (!lost) return;
+  if (lost_at === null && state) lost_at = state.updates;
+  $('back').hidden = true;
+  const next = `looking for it again in ${shown(lost.wait / 1000)} s`;
+  $('lost_text').textContent = lost.refused
+    ? `The server has another address now, which it has printed; ${next}`
+    : `The server does not answer; ${next}`;
+}
+$('try_now').onclick = () => wire.try_now();
+
+// What is behind a server that was gone: the same, or one that was started again.
+function show_back(head) {
+  if (lost_at === null) return;
+  const {updates} = head.state, more = updates - lost_at;
+  const count = (n) => `${n} update${n === 1 ? '' : 's'}`;
+  let text = 'The connection is back';
+  if (head.run !== run) {
+    text = updates === 0 ? 'The server was started again, without updates'
+      : `The server was started again, and went on from its journal of ${count(updates)}`;
+  }
+  if (more !== 0) text += `: ${count(Math.abs(more))} ${more > 0 ? 'more' : 'fewer'} than before`;
+  // An edit that had no answer was made, or is a draft again.
+  if (pending && more === 0) {
+    draft = pending.draft;
+    text += '; the last edit was not made';
+  }
+  pending = null;
+  lost_at = null;
+  $('back').textContent = text + '.';
+  $('back').hidden = false;
+  setTimeout(() => { $('back').hidden = true; }, 10000);
+}
+
 function receive(head, arrays, bytes) {
   const began = performance.now();
   if (head.state) state = head.state;
   if (head.seeds) seeds = head.seeds;
+  if (head.limits) show_limits(head.limits);
   if (head.kind === 'snapshot') load(head, arrays);
   if (head.kind === 'change') {
     mesh.apply(head, arrays, view);
@@ -117,7 +157,7 @@ function receive(head, arrays, bytes) {
   }
   panel_stale = true;
   wake(head.kind !== 'change' || is_space() || !drag && (selected !== null || draft.length > 0) ||
-    head.seeds !== undefined);
+    head.seeds !== undefined || head.limits !== undefined);
 }
 
 function load(head, arrays) {
@@ -130,6 +170,9 @@ function load(head, arrays) {
     document.title = head.name + ' - mesher view';
     $('name').textContent = head.name;
     $('histogram_title').textContent = is_space() ? 'Smallest dihedral angles' : 'Smallest angles';
+    $('limit_measure').textContent = is_space() ? 'volume' : 'area';
+    $('limit_box').placeholder = is_space() ? 'x y z x y z' : 'x y x y';
+    $('tool_limit').hidden = is_space();
     $('below').value = settings.below = is_space() ? 10 :
       Math.floor(Math.asin(1 / (2 * head.rho)) * 180 / Math.PI);
     const formats = ['vtu', 'vtk', 'msh', 'inp', 'su2', 'mesh', 'off', 'obj', 'node', 'svg'];
@@ -138,9 +181,13 @@ function load(head, arrays) {
     take_format();
     choose('move');
   }
+  show_back(head);
+  run = head.run;
+  show_limits(limits);  // in the words of the dimension
   selected = null;
   drag = null;
   sent.clear();
+  $('fresh').disabled = false;
   view.load(mesh);
   $('fresh_result').textContent = '';
 }
@@ -202,6 +249,82 @@ function go_to(place, size = 0) {
     view.show([place[0] - r, place[1] - r, place[0] + r, place[1] + r]);
   }
   wake();
+}
+
+// --- Limits of size ------------------------------------------------------------------------------
+
+function text_of_limit(largest) {
+  if (largest === null) return 'any size';
+  if (largest === 'background') return 'a background';
+  return (is_space() ? 'volume ' : 'area ') + shown(largest, 4);
+}
+
+// The limit that is typed, as fields of a command: without a number, none.
+function typed_limit() {
+  const text = $('limit_value').value.trim();
+  return text === '' ? {} : {[$('limit_kind').value]: Number(text)};
+}
+
+function show_limits(now) {
+  limits = now;
+  rows('limits', [['everywhere', text_of_limit(limits.everywhere)]]);
+  for (const box of limits.boxes) {
+    const row = $('limits').insertRow();
+    row.insertCell().textContent = [...box.lo, ...box.hi].map((x) => shown(x)).join(' ');
+    row.insertCell().textContent = text_of_limit(box.largest);
+    const actions = row.insertCell();
+    const action = (name, act) => {
+      const button = document.createElement('button');
+      button.textContent = name;
+      button.onclick = act;
+      actions.append(button);
+    };
+    action('Change', () => command({do: 'limit', box: [box.lo, box.hi], ...typed_limit()}));
+    action('Delete', () => command({do: 'unlimit', box: [box.lo, box.hi]}));
+  }
+}
+
+$('limit_all').onclick = () => command({do: 'limit', ...typed_limit()});
+$('limit_in').onclick = () => {
+  const numbers = $('limit_box').value.split(/[\s,;]+/).filter((s) => s !== '').map(Number);
+  const d = mesh.dimension;
+  if (numbers.length !== 2 * d || !numbers.every(Number.isFinite)) {
+    return report({text: `A box is ${2 * d} numbers: ${$('limit_box').placeholder}`});
+  }
+  command({do: 'limit', box: [numbers.slice(0, d), numbers.slice(d)], ...typed_limit()});
+};
+
+// The box between two positions of the pointer.
+function box_between(from, to) {
+  const a = snapped(view.place(...from)), b = snapped(view.place(...to));
+  return [a.map((x, i) => Math.min(x, b[i])), a.map((x, i) => Math.max(x, b[i]))];
+}
+
+function draw_box(g, lo, hi) {
+  const d = mesh.dimension;
+  const corner = (bits) => view.on_page(lo.map((x, i) => (bits >> i & 1 ? hi[i] : x)));
+  g.beginPath();
+  for (let from = 0; from < 1 << d; ++from) {
+    for (let i = 0; i < d; ++i) {
+      if (from >> i & 1) continue;
+      const a = corner(from), b = corner(from | 1 << i);
+      if (!a || !b) continue;
+      g.moveTo(...a);
+      g.lineTo(...b);
+    }
+  }
+  g.stroke();
+}
+
+function draw_limits(g) {
+  g.strokeStyle = '#2f7d4f';
+  g.lineWidth = 1.5;
+  g.setLineDash([3, 3]);
+  for (const {lo, hi} of limits.boxes) draw_box(g, lo, hi);
+  if (tool === 'limit' && gesture && gesture.moved) {
+    draw_box(g, ...box_between(gesture.from, [gesture.x, gesture.y]));
+  }
+  g.setLineDash([]);
 }
 
 let marked_at = 0;
@@ -279,6 +402,7 @@ function show_calls() {
 function draw_marks() {
   // A canvas that is empty costs as much as one that is not.
   const any = seeds.length > 0 || selected || draft.length > 0 || problems.length > 0 ||
+    limits.boxes.length > 0 ||
     (tool !== 'move' && hover !== null);
   marks.style.visibility = any ? 'visible' : 'hidden';
   if (!any) return;
@@ -305,6 +429,7 @@ function draw_marks() {
     const label = seed.kind === 'hole' ? '\u25cb hole' : `\u25c6 ${shown(seed.attribute)}`;
     g.fillText(label, at[0] - 5, at[1] + 4);
   }
+  draw_limits(g);
   if (selected) draw_selected(g, ring);
   draw_draft(g, ring);
   problems.forEach((p, i) => {
@@ -434,6 +559,7 @@ function click(x, y, event) {
     select(x, y);
     return remove_selected();
   }
+  if (tool === 'limit') return undefined;  // it is dragged
   if (tool === 'hole' || tool === 'region') {
     const face = is_space() ? view.pick_face(x, y) : null;
     const at = is_space() ? face && face.inside : view.place(x, y);
@@ -506,7 +632,7 @@ scene.addEventListener('pointermove', (event) => {
   const [x, y] = at_pointer(event);
   if (!gesture) {
     if (tool !== 'move') {
-      const draws = tool !== 'hole' && tool !== 'region' && tool !== 'delete';
+      const draws = !['hole', 'region', 'delete', 'limit'].includes(tool);
       // In space faces are many: where the pointer is on them only a click asks.
       hover = !draws ? null : is_space() ? view.pick_point(x, y) : end_at(x, y);
       wake();
@@ -517,6 +643,7 @@ scene.addEventListener('pointermove', (event) => {
   if (Math.hypot(x - gesture.from[0], y - gesture.from[1]) > 3) gesture.moved = true;
   [gesture.x, gesture.y] = [x, y];
   if (!gesture.moved) return;
+  if (tool === 'limit' && gesture.button === 0 && !is_space()) return wake();
   if (gesture.point !== undefined) {
     if (!drag) {
       drag = {id: gesture.point, wanted: null, sent: null, tag: 0};
@@ -562,6 +689,10 @@ scene.addEventListener('pointerup', (event) => {
   const [x, y] = at_pointer(event), was = gesture;
   gesture = null;
   if (drag) return drop();
+  if (tool === 'limit' && was.moved && was.button === 0 && !is_space()) {
+    command({do: 'limit', box: box_between(was.from, [x, y]), ...typed_limit()});
+    return wake();
+  }
   if (!was.moved && was.button === 0) click(x, y, event);
 });
 scene.addEventListener('pointercancel', () => {
@@ -734,6 +865,6 @@ make_tools();
 // For tests: what the page knows.
 window.mesher = {
   get mesh() { return mesh; }, get view() { return view; }, get state() { return state; },
-  get seeds() { return seeds; }, get problems() { return problems; }, get draft() { return draft; },
+  get seeds() { return seeds; }, get limits() { return limits; }, get problems() { return problems; }, get draft() { return draft; },
   get busy() { return sent.size > 0 || frame_wanted; }, measure, command, settings, go_to,
 };

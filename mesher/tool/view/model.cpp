@@ -7,6 +7,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <random>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "first_run.hpp"
 #include "graph_edits.hpp"
 #include "input_index.hpp"
+#include "limit_lines.hpp"
 #include "mesh_arrays.hpp"
 #include "mesher/mesher.hpp"
 #include "message.hpp"
@@ -38,12 +40,13 @@ using mesher::Feature;
 using mesher::Graph;
 using mesher::PointId;
 
-constexpr const char* kPage = "the page";  // where its edits stand
+constexpr const char* kPage = "the page";    // where its edits stand
+constexpr const char* kStart = "# start\n";  // of updates of the script with which a view begins
 
 template <int D>
 class ModelOf final : public Model {
  public:
-  ModelOf(const MeshArguments& args, const JournalArguments& journal)
+  ModelOf(const MeshArguments& args, const JournalArguments& journal, const std::string& script)
       : args_(args),
         input_(read_input<D>(args)),
         mesher_(locating(input_, [&] { return mesher::Mesher<D>(mesh_options(args, input_)); })),
@@ -58,6 +61,8 @@ class ModelOf final : public Model {
     for (const Feature& f : view::features_of(input_.graph())) require_showable(f);
     index_.take(input_.graph());
     replay();
+    // A kill may have left a part of the script in the journal, and then nothing else.
+    if (!script.empty() && started_ == journal_.updates_found()) make_updates_of(script);
     mesher_.keep_slots(true);
     kept_ = count_kept(mesher_);
     progress_.erase();
@@ -66,6 +71,7 @@ class ModelOf final : public Model {
 
   std::string snapshot() override;
   Work command(ClientId client, const std::string& text, const Send& send) override;
+  std::string edit(const std::string& script, const Send& send) override;
   void left(ClientId client, const Send& send) override {
     if (drag_ && drag_->client == client) settle(send);
   }
@@ -83,6 +89,8 @@ class ModelOf final : public Model {
   using Lines = std::vector<std::string>;
   using Edits = std::vector<Edit<D>>;
   using Made = mesher::Update<D, mesher::DomainUpdate<D>>;
+  using Simplices = typename Outputs<D>::Simplices;
+  using Simplex = typename Simplices::value_type;
   struct Done {  // an update in the history
     Lines again, back;
   };
@@ -91,27 +99,45 @@ class ModelOf final : public Model {
     PointId point{};
     mesher::Point<D> from{};
     bool moved = false;
+    std::set<Simplex> came, went;  // since it began
+
+    void follow(const mesher::DomainChange<D>& change) {
+      for (const Simplex& s : change.kept_removed) {
+        if (came.erase(s) == 0) went.insert(s);
+      }
+      for (const Simplex& s : change.kept_added) {
+        if (went.erase(s) == 0) came.insert(s);
+      }
+    }
   };
   enum class Why { edit, undo, redo };
 
   void replay();
+  void make_updates_of(const std::string& script);
+  void follow_update(const Edits& edits, Why why, bool undoable);
   static void require_showable(const Feature& feature);
   static Lines texts_of(const Edits& edits);
   static Edits edits_of(const Lines& lines);
   static std::set<Feature> features_of(const Edits& edits);
+  [[nodiscard]] std::optional<mesher::Options<D>> limits_before(const Edits& edits) const;
+  [[nodiscard]] static std::optional<Lines> lines_back(
+      Lines lines, const std::optional<mesher::Options<D>>& limits);
 
-  void run_script(const Json& command, const Send& send);
+  void run_script(const std::string& text, const Json& tag, const Send& send);
 
   void change(const Lines& lines, Why why, const Json& tag, const Send& send);
   void drag(ClientId client, const Json& command, const Json& tag, const Send& send);
   void settle(const Send& send);
   void go_back(bool redo, const Json& tag, const Send& send);
-  void record(const Edits& edits, Why why, const Lines& back);
+  void record(const Edits& edits, Why why, const std::optional<Lines>& back);
   void remember(Why why, Lines again, Lines back);
   Made update(Edits edits);
+  void take_back(const Lines& lines, const std::optional<mesher::Options<D>>& limits);
   Work fresh(const Json& tag);
   void watch_calls(const Json& command, const Json& tag, const Send& send);
   void draw_calls(const Send& send);
+
+  [[nodiscard]] std::string input_script() const;
 
   // Messages.
   [[nodiscard]] Json state() const;
@@ -127,10 +153,13 @@ class ModelOf final : public Model {
   mesher::GroupNames names_;
   std::vector<Done> undo_, redo_;
   std::optional<Drag> drag_;
-  std::unique_ptr<CallPicture> calls_;  // null: not wanted
-  std::uint64_t calls_of_ = 0;          // the revision of the picture
+  Simplices last_came_;  // of what is kept, by the last update in the journal
+  const std::uint64_t run_ = std::random_device()();  // tells this run from others of the journal
+  std::unique_ptr<CallPicture> calls_;                // null: not wanted
+  std::uint64_t calls_of_ = 0;                        // the revision of the picture
   std::size_t kept_ = 0;
   std::uint64_t revision_ = 0;
+  std::uint64_t started_ = 0;  // updates of the script with which the view begins, in the journal
 };
 
 template <int D>
@@ -152,6 +181,26 @@ typename ModelOf<D>::Edits ModelOf<D>::edits_of(const Lines& lines) {
   auto edits = script.next();
   if (!edits) throw refusal("nothing is edited");
   return std::move(*edits);
+}
+
+// The options with the limits of now, if the edits change limits.
+template <int D>
+std::optional<mesher::Options<D>> ModelOf<D>::limits_before(const Edits& edits) const {
+  const bool any = std::any_of(edits.begin(), edits.end(), [](const Edit<D>& edit) {
+    return edit.kind == mesher::EditKind::limit;
+  });
+  return any ? std::optional(mesher_.options()) : std::nullopt;
+}
+
+// What undoes an update: nothing if limits are to come back that no script can give.
+template <int D>
+std::optional<typename ModelOf<D>::Lines> ModelOf<D>::lines_back(
+    Lines lines, const std::optional<mesher::Options<D>>& limits) {
+  if (!limits) return lines;
+  const auto again = limit_lines(*limits);
+  if (!again) return std::nullopt;
+  lines.insert(lines.end(), again->begin(), again->end());
+  return lines;
 }
 
 template <int D>
@@ -177,27 +226,42 @@ typename ModelOf<D>::Made ModelOf<D>::update(Edits edits) {
 template <int D>
 void ModelOf<D>::replay() {
   while (auto found = journal_.next_found()) {
-    const auto features = features_of(found->edits);
-    for (const Feature& f : features) require_showable(f);
-    const Graph<D> before = index_.part(features);
-    const Lines again = texts_of(found->edits);
-    const bool limits = features.size() != found->edits.size() &&
-                        std::any_of(found->edits.begin(), found->edits.end(), [](const auto& e) {
-                          return e.kind == mesher::EditKind::limit;
-                        });
-    locating(input_, [&] { return update(std::move(found->edits)); });
-    const Graph<D> after = index_.part(features);
-    index_.take(after);
-    const bool folded = found->text.starts_with("# folded");
-    if (limits || folded) {  // of limits nothing can be undone here
-      undo_.clear();
-      redo_.clear();
-      continue;
-    }
-    const Why why = found->text.starts_with("# undo")   ? Why::undo
-                    : found->text.starts_with("# redo") ? Why::redo
-                                                        : Why::edit;
-    remember(why, again, graph_edits<D>(after, before));
+    const std::string& text = found->text;
+    const bool of_start = text.starts_with(kStart);
+    if (of_start) ++started_;
+    const Why why = text.starts_with("# undo")   ? Why::undo
+                    : text.starts_with("# redo") ? Why::redo
+                                                 : Why::edit;
+    follow_update(found->edits, why, !of_start && !text.starts_with("# folded"));
+  }
+}
+
+// Makes an update that is in the journal, or that begins it.
+template <int D>
+void ModelOf<D>::follow_update(const Edits& edits, Why why, bool undoable) {
+  const auto features = features_of(edits);
+  for (const Feature& f : features) require_showable(f);
+  const Graph<D> before = index_.part(features);
+  const auto limits = limits_before(edits);
+  auto made = locating(input_, [&] { return update(edits); });
+  last_came_ = std::move(made.change.domain.kept_added);
+  const Graph<D> after = index_.part(features);
+  index_.take(after);
+  const auto back = lines_back(graph_edits<D>(after, before), limits);
+  if (undoable && back) return remember(why, texts_of(edits), *back);
+  undo_.clear();
+  redo_.clear();
+}
+
+template <int D>
+void ModelOf<D>::make_updates_of(const std::string& path) {
+  const std::string folder = fs::path(path).parent_path().string();
+  mesher::EditScript<D> script(path);
+  std::uint64_t made = 0;
+  while (const auto edits = script.next()) {
+    if (edits->empty() || ++made <= started_) continue;
+    follow_update(*edits, Why::edit, false);
+    journal_.append(*edits, folder, kStart);
   }
 }
 
@@ -216,22 +280,26 @@ void ModelOf<D>::remember(Why why, Lines again, Lines back) {
 }
 
 template <int D>
-void ModelOf<D>::run_script(const Json& command, const Send& send) {
-  const Json& text = field(command, "text");
-  if (!text.is_string()) throw refusal("'text' is no text");
-  const Json tag = command.value("tag", Json());
-  auto script = mesher::EditScript<D>::of_text(text.get<std::string>(), kPage);
-  // Limits may name files, which a page has no business with.
-  std::istringstream words(text.get<std::string>());
-  for (std::string word; words >> word;) {
-    if (word == "limit") throw refusal("limits are edited by 'mesher edit'");
+void ModelOf<D>::run_script(const std::string& text, const Json& tag, const Send& send) {
+  // A background is a file, which a page has no business with.
+  std::istringstream words(text);
+  for (std::string word, before; words >> word; before = word) {
+    if (before == "limit" && word == "sizes") throw refusal("a page cannot name a file of sizes");
   }
+  auto script = mesher::EditScript<D>::of_text(text, kPage);
   std::vector<Lines> batches;
   while (const auto edits = script.next()) {
     if (!edits->empty()) batches.push_back(texts_of(*edits));
   }
   if (batches.empty()) throw refusal("nothing is edited");
   for (const Lines& batch : batches) change(batch, Why::edit, tag, send);
+}
+
+template <int D>
+std::string ModelOf<D>::edit(const std::string& script, const Send& send) {
+  settle(send);
+  run_script(script, Json(), send);
+  return state().dump();
 }
 
 template <int D>
@@ -260,7 +328,11 @@ Model::Work ModelOf<D>::command(ClientId client, const std::string& text, const 
     } else if (name == "calls") {
       watch_calls(command, tag, send);
     } else if (name == "script") {
-      run_script(command, send);
+      const Json& script = field(command, "text");
+      if (!script.is_string()) throw refusal("'text' is no text");
+      run_script(script.get<std::string>(), tag, send);
+    } else if (name == "limit" || name == "unlimit") {
+      change(limit_lines_of<D>(command, mesher_.options()), Why::edit, tag, send);
     } else if (name == "point" || name == "line" || name == "polygon" || name == "hole" ||
                name == "region" || name == "delete") {
       change(index_.lines_of(command), Why::edit, tag, send);
@@ -280,9 +352,11 @@ Model::Work ModelOf<D>::command(ClientId client, const std::string& text, const 
 // Puts an update that was made into journal and history. Throws: Error(cannot_write), and then it
 // is to be taken back.
 template <int D>
-void ModelOf<D>::record(const Edits& edits, Why why, const Lines& back) {
+void ModelOf<D>::record(const Edits& edits, Why why, const std::optional<Lines>& back) {
   journal_.append(edits, "", why == Why::undo ? "# undo\n" : why == Why::redo ? "# redo\n" : "");
-  remember(why, texts_of(edits), back);
+  if (back) return remember(why, texts_of(edits), *back);
+  undo_.clear();
+  redo_.clear();
 }
 
 template <int D>
@@ -292,20 +366,31 @@ void ModelOf<D>::change(const Lines& lines, Why why, const Json& tag, const Send
   for (const Feature& f : features) require_showable(f);
   if (journal_.is_long()) journal_.make_room(mesher_.input());
   const Graph<D> before = index_.part(features);
+  const auto limits = limits_before(edits);
   auto made = update(edits);
   const Graph<D> after = index_.part(features);
   index_.take(after);
-  const Lines back = graph_edits<D>(after, before);
+  const Lines features_back = graph_edits<D>(after, before);
+  const auto back = lines_back(features_back, limits);
   try {
     record(edits, why, back);
   } catch (const Error&) {
-    if (!back.empty()) update(edits_of(back));
+    take_back(features_back, limits);
     kept_ = count_kept(mesher_);
     send({snapshot(), true, true});  // pages know neither the update nor the other
     throw;
   }
   send_change(made, features, tag, send);
+  last_came_ = std::move(made.change.domain.kept_added);
   draw_calls(send);
+}
+
+template <int D>
+void ModelOf<D>::take_back(const Lines& lines, const std::optional<mesher::Options<D>>& limits) {
+  if (!lines.empty()) update(edits_of(lines));
+  if (!limits) return;
+  announce_limits(*limits, mesher_);
+  Watched(mesher_, progress_).update();
 }
 
 template <int D>
@@ -316,13 +401,14 @@ void ModelOf<D>::drag(ClientId client, const Json& command, const Json& tag, con
   if (drag_ && (drag_->client != client || drag_->point != point)) settle(send);
   const auto was = mesher_.point(point);
   if (!was) throw Error(ErrorCode::unknown_id, text_of(Feature(point)) + " is not there");
-  if (!drag_) drag_ = Drag{client, point, was->at, false};
+  if (!drag_) drag_ = Drag{client, point, was->at, false, {}, {}};
   std::optional<Error> refused;
   if (was->at != to) {
     try {
       Edits edits = edits_of({"move" + id_word(point) + place_words<D>(to)});
       const auto made = update(std::move(edits));
       drag_->moved = true;
+      drag_->follow(made.change.domain);
       send_change(made, {Feature(point)}, tag, send);
     } catch (const Error& error) {
       refused = error;
@@ -354,6 +440,7 @@ void ModelOf<D>::settle(const Send& send) {
     send({text_of_json(json_of_error(error, Json())), false, true});
     return;
   }
+  last_came_.assign(dragged.came.begin(), dragged.came.end());
   send({Json{{"kind", "state"}, {"state", state()}}.dump(), false, true});
   draw_calls(send);
 }
@@ -449,7 +536,9 @@ std::string ModelOf<D>::snapshot() {
                   {"lo", domain.lo},
                   {"hi", domain.hi},
                   {"state", state()},
+                  {"run", run_},
                   {"seeds", json_of_seeds(mesher_, index_.seeds())},
+                  {"limits", json_of_limits(mesher_.options())},
                   {"arrays", Json::array()}};
   add_mesh(mesher_, message);
   return message.bytes();
@@ -483,6 +572,7 @@ void ModelOf<D>::send_change(const Made& update, const std::set<Feature>& featur
   if (seeded || may_move) {
     message.head["seeds"] = json_of_seeds(mesher_, index_.seeds());
   }
+  if (limits_before(update.edits)) message.head["limits"] = json_of_limits(mesher_.options());
   add_change(mesher_, change, message);
   std::vector<double> gone;
   for (const Feature& f : features) {
@@ -493,11 +583,21 @@ void ModelOf<D>::send_change(const Made& update, const std::set<Feature>& featur
   send({message.bytes(), true, true});
 }
 
+// Edits that make the input of nothing; with its limits, unless there is a background among them.
+template <int D>
+std::string ModelOf<D>::input_script() const {
+  Lines lines = graph_edits<D>({}, mesher_.input());
+  const auto limits = limit_lines(mesher_.options());
+  if (limits) lines.insert(lines.end(), limits->begin(), limits->end());
+  return limits ? script_of(lines) : "# limits of a background are not here\n" + script_of(lines);
+}
+
 template <int D>
 SavedFile ModelOf<D>::saved(const std::string& name, const Send& send) {
   settle(send);
   const std::string stem = fs::path(args_.source).stem().string();
   if (name == "edits.txt") return {stem + ".edits.txt", "text/plain", journal_.file().script()};
+  if (name == "input.txt") return {stem + ".input.txt", "text/plain", input_script()};
   const ScratchFolder folder;
   if (name == "input.poly") {
     mesher::write_graph(mesher_.input(), (folder.path() / (stem + ".edited.poly")).string());
@@ -512,7 +612,7 @@ SavedFile ModelOf<D>::saved(const std::string& name, const Send& send) {
     outputs.open_mesh(
         (folder.path() / (stem + format)).string(),
         input_.has_features() ? mesher::MeshFiles::features : mesher::MeshFiles::plain, options);
-    outputs.write(kept_of<D>(args_, mesher_));
+    outputs.write(kept_of<D>(args_, mesher_), last_came_);
     outputs.commit();
   }
   auto files = files_in(folder.path());
@@ -524,9 +624,10 @@ SavedFile ModelOf<D>::saved(const std::string& name, const Send& send) {
 
 }  // namespace
 
-std::unique_ptr<Model> make_model(const MeshArguments& args, const JournalArguments& journal) {
-  if (dimension_of(args) == 3) return std::make_unique<ModelOf<3>>(args, journal);
-  return std::make_unique<ModelOf<2>>(args, journal);
+std::unique_ptr<Model> make_model(const MeshArguments& args, const JournalArguments& journal,
+                                  const std::string& script) {
+  if (dimension_of(args) == 3) return std::make_unique<ModelOf<3>>(args, journal, script);
+  return std::make_unique<ModelOf<2>>(args, journal, script);
 }
 
 }  // namespace tool::view

@@ -11,8 +11,13 @@
 //   {"do": "delete", "features": [["point", id], ["line", id], ["polygon", id], ["hole", id],
 //                                 ["region", id]]}       with what hangs on points
 //   {"do": "drag", "point": id, "at": [x, y], "drop": true}
+//   {"do": "limit", "largest": A, "box": [[x, y], [x, y]]}
+//                                   a limit of area (volume), or "size": H, or, with neither, none;
+//                                   without a box everywhere, in place of all others
+//   {"do": "unlimit", "box": [...]}  as if the limit in that box had not been given
 //   {"do": "undo"}, {"do": "redo"}
-//   {"do": "script", "text": lines}  of edits; each batch is an update
+//   {"do": "script", "text": lines}  of edits; each batch is an update. `limit sizes` is refused: a
+//                                   page cannot name files
 //   {"do": "snapshot"}               all of the mesh again
 //   {"do": "fresh"}                  a run from scratch, to compare times
 //   {"do": "calls", "on": true}      from now on, draw which calls of the engine each update runs
@@ -64,8 +69,12 @@ class Model {
   virtual Work command(ClientId client, const std::string& text, const Send& send) = 0;
   /// A page is gone: what it drags is dropped.
   virtual void left(ClientId client, const Send& send) = 0;
-  /// The mesh, the input or the script as a file: mesh.EXT, input.poly or edits.txt.
-  /// Throws: Error (unknown_format, cannot_write, ...).
+  /// Makes the updates of a script, up to the first that is refused. Gives JSON.
+  /// Throws: Error; bad_alloc.
+  virtual std::string edit(const std::string& script, const Send& send) = 0;
+  /// The mesh, the input or a script as a file: mesh.EXT, input.poly, input.txt (edits that make
+  /// the input and its limits of nothing), or edits.txt (those since the start). Throws: Error
+  /// (unknown_format, cannot_write, ...).
   [[nodiscard]] virtual SavedFile saved(const std::string& name, const Send& send) = 0;
   /// A picture (SVG) of the calls that only the trace before the last update has, or only the one
   /// after it, and of their ancestors; empty if there is none.
@@ -76,8 +85,10 @@ class Model {
   virtual void finish(const Send& send) = 0;
 };
 
-/// Reads the input, replays its journal, and makes the mesh. Throws: Error.
+/// Reads the input, replays its journal, and makes the mesh. `script`: edits with which a new
+/// journal begins, and which cannot be undone; empty: none. Throws: Error.
 [[nodiscard]] std::unique_ptr<Model> make_model(const MeshArguments& args,
-                                                const JournalArguments& journal);
+                                                const JournalArguments& journal,
+                                                const std::string& script);
 
 }  // namespace tool::view

@@ -33,9 +33,12 @@ using Request = http::request<http::string_body>;
 
 constexpr std::size_t kMostSessions = 64;
 constexpr std::size_t kLongestMessage = std::size_t{1} << 20;  // of a page
-constexpr std::size_t kMostWaiting = std::size_t{1} << 28;     // bytes for one page
+constexpr std::uint64_t kLongestScript = std::uint64_t{1} << 30;
+constexpr std::size_t kMostWaiting = std::size_t{1} << 28;  // bytes for one page
 constexpr std::uint32_t kLongestHead = 16384;
 constexpr std::chrono::seconds kPatience{30};
+
+constexpr const char* kEditsPath = "edits";  // where scripts are posted
 
 constexpr const char* kPagePolicy =
     "default-src 'self'; img-src 'self' data:; connect-src 'self' ws://127.0.0.1:* "
@@ -70,7 +73,7 @@ class SocketSession;
 struct Server::Impl {
   explicit Impl(Callbacks from) : callbacks(std::move(from)), acceptor(io), tick(io) {}
 
-  void listen(std::uint16_t port);
+  void listen(const PageAddress& wanted, bool may_move);
   void accept();
   void ask_whether_to_go_on();
   [[nodiscard]] bool is_own(const std::string& host) const {
@@ -80,7 +83,7 @@ struct Server::Impl {
   [[nodiscard]] std::optional<std::string> allowed_path(const Request& request) const;
 
   Callbacks callbacks;
-  std::string token = random_token(), end, address;
+  std::string token, end;  // `:PORT`
   std::map<ClientId, std::shared_ptr<SocketSession>> clients;
   ClientId last_client = 0;
   std::size_t sessions = 0;
@@ -194,20 +197,34 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   void read() {
     parser_.emplace();
     parser_->header_limit(kLongestHead);
-    parser_->body_limit(0);
+    parser_->body_limit(kLongestScript);
     stream_.expires_after(kPatience);
+    http::async_read_header(stream_, buffer_, *parser_,
+                            [self = shared_from_this()](error_code error, std::size_t) {
+                              if (error == http::error::end_of_stream) return self->close();
+                              if (!error) self->take_head();
+                            });
+  }
+
+ private:
+  // Of a body nothing is read but a script from who knows the token.
+  void take_head() {
+    if (parser_->is_done()) return answer();
+    if (parser_->get().method() != http::verb::post) return;
+    if (count_.impl->allowed_path(parser_->get()) != kEditsPath) return;
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](error_code error, std::size_t) {
-                       if (error == http::error::end_of_stream) return self->close();
                        if (!error) self->answer();
                      });
   }
 
- private:
   void answer() {
     const Request request = parser_->release();
     const auto path = count_.impl->allowed_path(request);
     if (!path) return reply(request, {403, "text/plain", "refused\n", ""});
+    if (request.method() == http::verb::post && *path == kEditsPath) {
+      return reply(request, count_.impl->callbacks.edits(request.body()));
+    }
     if (websocket::is_upgrade(request)) {
       if (*path != "socket") return reply(request, {404, "text/plain", "not found\n", ""});
       stream_.expires_never();
@@ -282,7 +299,9 @@ std::optional<std::string> Server::Impl::allowed_path(const Request& request) co
   return target.substr(slash + 1);
 }
 
-void Server::Impl::listen(std::uint16_t port) {
+void Server::Impl::listen(const PageAddress& wanted, bool may_move) {
+  const std::uint16_t port = wanted.port;
+  token = wanted.token.empty() ? random_token() : wanted.token;
   try {
     const tcp::endpoint endpoint(asio::ip::address_v4::loopback(), port);
     acceptor.open(endpoint.protocol());
@@ -290,12 +309,15 @@ void Server::Impl::listen(std::uint16_t port) {
     acceptor.bind(endpoint);
     acceptor.listen();
   } catch (const boost::system::system_error& error) {
+    if (may_move) {
+      acceptor = tcp::acceptor(io);
+      return listen({}, false);
+    }
     throw mesher::Error(
         mesher::ErrorCode::bad_option,
         "--port " + std::to_string(port) + ": cannot listen on it: " + error.code().message());
   }
   end = ":" + std::to_string(acceptor.local_endpoint().port());
-  address = "http://127.0.0.1" + end + "/" + token + "/";
   accept();
 }
 
@@ -319,14 +341,16 @@ void Server::Impl::ask_whether_to_go_on() {
   });
 }
 
-Server::Server(std::uint16_t port, Callbacks callbacks)
+Server::Server(const PageAddress& wanted, bool may_move, Callbacks callbacks)
     : impl_(std::make_unique<Impl>(std::move(callbacks))) {
-  impl_->listen(port);
+  impl_->listen(wanted, may_move);
 }
 
 Server::~Server() { impl_->clients.clear(); }
 
-const std::string& Server::address() const noexcept { return impl_->address; }
+PageAddress Server::address() const {
+  return {impl_->acceptor.local_endpoint().port(), impl_->token};
+}
 
 void Server::send(ClientId client, Bytes bytes, bool binary) {
   const auto found = impl_->clients.find(client);

@@ -15,6 +15,8 @@
 #include <memory>
 #include <string>
 
+#include "page_address.hpp"
+
 namespace tool::view {
 
 struct HttpReply {
@@ -29,19 +31,20 @@ class Server {
   using ClientId = std::uint64_t;
   using Bytes = std::shared_ptr<const std::string>;
   struct Callbacks {
-    std::function<HttpReply(const std::string& path)> get;  // path: behind the token, "page.js"
-    std::function<void(ClientId)> joined, left;             // of web sockets
+    std::function<HttpReply(const std::string& path)> get;    // path: behind the token, "page.js"
+    std::function<HttpReply(const std::string& text)> edits;  // a script that was posted
+    std::function<void(ClientId)> joined, left;               // of web sockets
     std::function<void(ClientId, std::string)> message;
   };
 
-  /// `port`: 0 for any. Throws: Error(bad_option) if it cannot listen there.
-  Server(std::uint16_t port, Callbacks callbacks);
+  /// At `wanted`; if it cannot listen there and `may_move`, at any other address.
+  /// Throws: Error(bad_option) if it cannot listen.
+  Server(const PageAddress& wanted, bool may_move, Callbacks callbacks);
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  /// http://127.0.0.1:PORT/TOKEN/
-  [[nodiscard]] const std::string& address() const noexcept;
+  [[nodiscard]] PageAddress address() const;
 
   void send(ClientId client, Bytes bytes, bool binary);
   void broadcast(const Bytes& bytes, bool binary);

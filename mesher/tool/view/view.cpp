@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <new>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -12,8 +14,10 @@
 #include "cancel.hpp"
 #include "commands.hpp"
 #include "edit_journal.hpp"
+#include "fields.hpp"
 #include "model.hpp"
 #include "pages.hpp"
+#include "platform/process.hpp"
 #include "server.hpp"
 
 namespace tool {
@@ -25,7 +29,9 @@ using view::Server;
 
 struct ViewArguments : MeshArguments {
   JournalArguments journal;
-  std::string port = "0";
+  std::string port;    // empty: that of the last time, or any
+  std::string script;  // empty: none
+  bool new_address = false, with_parent = false;
 };
 
 std::uint16_t port_of(const std::string& text) {
@@ -58,15 +64,33 @@ view::HttpReply page_reply(Model& model, const std::string& path, const Model::S
   }
 }
 
+view::HttpReply edits_reply(Model& model, const std::string& script, const Model::Send& send) {
+  const char* const json = "application/json";
+  const auto refused = [&](const mesher::Error& error) -> view::HttpReply {
+    return {409, json, view::text_of_json(view::json_of_error(error, view::Json())), ""};
+  };
+  try {
+    return {200, json, model.edit(script, send), ""};
+  } catch (const mesher::Error& error) {
+    return refused(error);
+  } catch (const std::bad_alloc&) {
+    return refused({mesher::ErrorCode::too_many, "out of memory"});
+  }
+}
+
 // The model behind the server: answers go to one page or to all.
 class View {
  public:
-  View(std::unique_ptr<Model> model, std::uint16_t port)
+  View(std::unique_ptr<Model> model, const view::PageAddress& wanted, bool may_move)
       : model_(std::move(model)),
         server_(
-            port,
+            wanted, may_move,
             {.get =
                  [this](const std::string& path) { return page_reply(*model_, path, sender(0)); },
+             .edits =
+                 [this](const std::string& script) {
+                   return edits_reply(*model_, script, sender(0));
+                 },
              .joined =
                  [this](Server::ClientId client) {
                    server_.send(client, bytes(model_->snapshot()), true);
@@ -80,9 +104,11 @@ class View {
   View(const View&) = delete;
   View& operator=(const View&) = delete;
 
-  [[nodiscard]] const std::string& address() const { return server_.address(); }
-  void run() {
-    server_.run([] { return !interrupted(); });
+  [[nodiscard]] view::PageAddress address() const { return server_.address(); }
+  void run(bool with_parent) {
+    const auto parent = platform::parent_number();
+    server_.run(
+        [=] { return !interrupted() && !(with_parent && platform::parent_number() != parent); });
     model_->finish(sender(0));
   }
   [[nodiscard]] const Model& model() const { return *model_; }
@@ -133,19 +159,34 @@ class View {
 // A journal that nobody asked for may be in a folder that one may not write to.
 std::unique_ptr<Model> model_of(const ViewArguments& args, const JournalArguments& journal) {
   try {
-    return view::make_model(args, journal);
+    return view::make_model(args, journal, args.script);
   } catch (const mesher::Error& error) {
     if (error.code() != mesher::ErrorCode::cannot_write || !args.journal.path.empty()) throw;
     throw error.with_message(error.message() + "; --journal FILE records updates elsewhere");
   }
 }
 
-void run_view(const ViewArguments& args) {
-  const std::uint16_t port = port_of(args.port);
-  if (args.is_static || !args.stats.empty() || !args.outputs.empty()) {
-    throw mesher::Error(mesher::ErrorCode::bad_option,
-                        "-o, --static and --stats are for 'mesher edit'; the page saves files");
+// Where the page was the last time, so that pages that are still open find it; unless that is
+// taken.
+std::unique_ptr<View> opened_view(const ViewArguments& args, const JournalArguments& journal) {
+  const std::optional<std::uint16_t> port =
+      args.port.empty() ? std::nullopt : std::optional(port_of(args.port));
+  const std::string file = journal.path + ".page";
+  auto model = model_of(args, journal);
+  const auto last = args.new_address ? std::nullopt : view::read_page_address(file);
+  view::PageAddress wanted = last.value_or(view::PageAddress());
+  if (port) wanted.port = *port;
+  auto view = std::make_unique<View>(std::move(model), wanted, last && !port);
+  if (!view::write_page_address(file, view->address()) && !args.quiet) {
+    std::fprintf(stderr,
+                 "%s: note: cannot be written: a view that is started again has another "
+                 "address\n",
+                 file.c_str());
   }
+  return view;
+}
+
+void run_view(const ViewArguments& args) {
   JournalArguments journal = args.journal;
   if (journal.path.empty()) {
     if (args.source != args.input) {
@@ -155,15 +196,15 @@ void run_view(const ViewArguments& args) {
     }
     journal.path = args.source + ".journal";
   }
-  View view(model_of(args, journal), port);
-  std::printf("%s\n", view.address().c_str());
+  const auto view = opened_view(args, journal);
+  std::printf("%s\n", view->address().text().c_str());
   std::fflush(stdout);
   if (!args.quiet) {
     std::fprintf(stderr, "%s: %s\nThe page is at the address above; Ctrl-C ends.\n",
-                 args.source.c_str(), view.model().summary().c_str());
+                 args.source.c_str(), view->model().summary().c_str());
   }
   const StopPolitely stop;
-  view.run();
+  view->run(args.with_parent);
 }
 
 }  // namespace
@@ -172,21 +213,28 @@ void add_view(CLI::App& app) {
   const auto args = std::make_shared<ViewArguments>();
   CLI::App* view = app.add_subcommand(
       "view", "Shows a mesh in a browser, where points are dragged and lines are drawn.");
-  add_mesh_options(*view, *args);
+  add_mesh_options(*view, *args, MeshGoes::elsewhere);
+  view->add_option("--script", args->script,
+                   "Edits to be made first, if the journal is new; the page cannot undo them")
+      ->type_name("EDITS");
   view->add_option("--journal", args->journal.path,
                    "Record each update in this file, and go on from it if it is there (default:\n"
                    "INPUT.journal)")
       ->type_name("FILE");
   add_journal_options(*view, args->journal);
-  view->add_option("--port", args->port, "Where to listen on 127.0.0.1 (default: any free port)")
+  view->add_option("--port", args->port,
+                   "Where to listen on 127.0.0.1 (default: as the last time, or any free port)")
       ->type_name("PORT");
+  view->add_flag("--new-address", args->new_address,
+                 "Do not take the address of the last time, which is in FILE.page beside the\n"
+                 "journal FILE: pages that know it are refused");
+  view->add_flag("--with-parent", args->with_parent,
+                 "End when the program that has started this one ends");
   view->footer(
       "Prints the address of the page, which holds a random token; no browser is started. The "
       "page\n"
-      "is only for this machine, and for who knows the address. Options are those of 'mesher "
-      "edit'\n"
-      "except -o, --static and --stats; the page saves files. Its script of edits, replayed by\n"
-      "'mesher edit', gives the same mesh. See mesher/docs/view.md.\n"
+      "is only for this machine, and for who knows the address; it saves meshes. Its script of\n"
+      "edits, replayed by 'mesher edit', gives the same mesh. See mesher/docs/view.md.\n"
       "Examples:\n"
       "  mesher view lake.poly\n"
       "  mesher view part.stl --surface --journal part.edits --port 8080");

@@ -1,4 +1,5 @@
-// The web socket: commands out, messages in. After the server was away the page begins anew.
+// The web socket: commands out, messages in. When the server is away, it is looked for at longer and
+// longer intervals; when it is back, it sends all of the mesh.
 
 // A Message (message.hpp): its head, and its arrays by name, which are views of `buffer`.
 export function decode(buffer) {
@@ -12,19 +13,32 @@ export function decode(buffer) {
   return {head, arrays};
 }
 
+const FIRST_WAIT = 250, LONGEST_WAIT = 8000;  // milliseconds
+
 export class Wire {
+  // lost: called with {refused, wait}: milliseconds until the next attempt, and whether something at
+  // the address refuses this page; with null when the server is there.
   constructor(receive, lost) {
     this.receive = receive;
     this.lost = lost;
     this.tag = 0;
+    this.wait = FIRST_WAIT;
+    this.timer = 0;
+    window.addEventListener('online', () => this.try_now());
+    document.addEventListener('visibilitychange', () => {
+      if (document.visibilityState === 'visible') this.try_now();
+    });
     this.connect();
   }
 
   connect() {
+    clearTimeout(this.timer);
+    this.timer = 0;
     const socket = new WebSocket(`ws://${location.host}${location.pathname}socket`);
     socket.binaryType = 'arraybuffer';
     socket.onmessage = (event) => {
-      this.lost(false);
+      this.wait = FIRST_WAIT;
+      this.lost(null);
       if (typeof event.data === 'string') {
         this.receive(JSON.parse(event.data), {});
       } else {
@@ -32,11 +46,26 @@ export class Wire {
         this.receive(head, arrays, event.data.byteLength);
       }
     };
-    socket.onclose = () => {
-      this.lost(true);
-      setTimeout(() => this.connect(), 500);
-    };
+    socket.onclose = () => this.closed();
     this.socket = socket;
+  }
+
+  async closed() {
+    const wait = this.wait;
+    this.wait = Math.min(LONGEST_WAIT, 2 * wait);
+    this.timer = setTimeout(() => this.connect(), wait);
+    this.lost({refused: false, wait});
+    // A web socket does not tell whether nobody answers, or somebody who does not know this page.
+    const timer = this.timer;
+    const answer = await fetch('style.css', {method: 'HEAD', cache: 'no-store'}).catch(() => null);
+    if (this.timer === timer && answer && answer.status === 403) this.lost({refused: true, wait});
+  }
+
+  // Looks for the server at once, if it is away.
+  try_now() {
+    if (this.timer === 0) return;
+    this.wait = FIRST_WAIT;
+    this.connect();
   }
 
   // Its tag, which comes back with the answer; 0 if there is no server.

@@ -275,18 +275,135 @@ tests['two tabs, and a server that is killed'] = async () => {
   const was = await content(one);
   assert.equal(was, await content(two));
 
-  // It is killed, and comes back on its port from the journal: pages find it only if the token is
-  // known, so they are opened anew.
+  // It is killed, and comes back at its address from the journal: both tabs find it.
+  const text = (page, id) => page.textContent('#' + id);
+  const {address} = server;
   await server.end('SIGKILL');
   await until('the page says so', () => one.evaluate(() => !document.getElementById('lost').hidden));
+  assert.match(await text(one, 'lost_text'), /does not answer; looking for it again in .* s/);
+  await shot(one, 'lost');
   server = await serve('tabs.poly');
+  assert.equal(server.address, address);
   await until('it says so', async () => /2 updates resumed/.test(server.said()));
+  for (const page of [one, two]) {
+    await until('the tab finds it', () => page.evaluate(() =>
+      document.getElementById('lost').hidden && !document.getElementById('back').hidden));
+    assert.match(await text(page, 'back'),
+      /^The server was started again, and went on from its journal of 2 updates\.$/);
+    await quiet(page);
+    assert.equal(await content(page), was);
+  }
+  await shot(one, 'back');
+  await one.click('#undo');
+  await until('undo after a kill', async () => (await state(two)).updates === 3);
+  assert.deepEqual(await point(two, middle), from);
+
+  // The intervals grow; a click looks at once.
+  await server.end();
+  await until('longer intervals', () => one.evaluate(() =>
+    / in [48] s/.test(document.getElementById('lost_text').textContent)));
+  server = await serve('tabs.poly');
+  const clicked = Date.now();
+  await one.click('#try_now');
+  await until('the tab is there', async () => /3 updates/.test(await text(one, 'back')), 2);
+  assert.ok(Date.now() - clicked < 2000);
+
+  // Another server there, with another token: the tab says that it is refused.
+  await server.end();
+  server = await serve('tabs.poly', '--new-address', '--port', String(server.port));
+  await one.click('#try_now');
+  await until('the tab is refused', async () =>
+    /has another address now/.test(await text(one, 'lost_text')));
   const three = await open(server);
+  await three.click('#redo');
+  await until('redo', async () => (await state(three)).updates === 4);
   assert.equal(await content(three), was);
   await three.click('#undo');
-  await until('undo after a kill', async () => (await state(three)).updates === 3);
+  await until('undo after a kill', async () => (await state(three)).updates === 5);
   assert.deepEqual(await point(three, middle), from);
   for (const page of [one, two, three]) await page.close();
+  // The browser reports each attempt.
+  assert.ok(faults.every((text) => /403|ERR_CONNECTION_REFUSED/.test(text)), faults.join());
+  faults.length = 0;
+  await server.end();
+};
+
+tests['limits of size'] = async () => {
+  fs.writeFileSync('limits.poly', SQUARE);
+  let server = await serve('limits.poly');
+  const page = await open(server);
+  const limits = () => page.evaluate(() => window.mesher.limits);
+  const kept = async () => (await state(page)).kept;
+  const listed = () => page.evaluate(() =>
+    Array.from(document.querySelectorAll('#limits tr')).map((row) => row.innerText));
+  const none = await kept();
+  await page.fill('#limit_value', '0.1');
+  await page.click('#limit_all');
+  await until('a limit everywhere', async () => await kept() > none);
+  const all = await kept();
+
+  // A box is drawn by dragging; with the limit at the right.
+  await tool_of(page, 'limit');
+  await page.click('#snap');
+  await page.selectOption('#limit_kind', 'largest');
+  await page.fill('#limit_value', '0.0005');
+  await pull(page, [0.1, 0.1], [0.4, 0.5]);
+  await until('a limit in a box', async () => (await limits()).boxes.length === 1);
+  const [box] = (await limits()).boxes;
+  assert.deepEqual([box.lo, box.hi, box.largest], [[0.1, 0.1], [0.4, 0.5], 0.0005]);
+  await quiet(page);
+  const fine = await kept();
+  assert.ok(fine > all + 100, `${fine} ${all}`);
+  await shot(page, 'limits');
+
+  // Changed, written, deleted, undone.
+  await page.fill('#limit_value', '0.002');
+  await page.click('text=Change');
+  await until('it is changed', async () => (await limits()).boxes[0].largest === 0.002);
+  assert.ok(await kept() < fine);
+  await page.fill('#limit_box', '0.6 0.6 0.9 0.9');
+  await page.click('#limit_in');
+  await until('another box', async () => (await limits()).boxes.length === 2);
+  assert.equal((await listed()).length, 3);
+  await page.click('#limits tr:nth-child(2) >> text=Delete');
+  await until('the first is deleted', async () => (await limits()).boxes.length === 1);
+  assert.deepEqual((await limits()).boxes[0].lo, [0.6, 0.6]);
+  await page.click('#undo');
+  await until('undo', async () => (await limits()).boxes.length === 2);
+  await page.fill('#limit_box', '1 2 3');
+  await page.click('#limit_in');
+  assert.match(await page.evaluate(() => window.mesher.problems[0].text), /A box is 4 numbers/);
+  await page.fill('#limit_value', '');
+  await page.click('#limit_all');
+  await until('no limits', async () => await kept() === none);
+  assert.equal((await listed()).length, 1);
+
+  const script = await saved(page, '#save_script');
+  fs.writeFileSync('limits.txt', script);
+  assert.match(String(script), /limit area 5e-04 in 0\.1 0\.1 0\.4 0\.5/);
+  for (const format of ['vtu', 'svg']) {
+    await page.selectOption('#format', format);
+    execFileSync(tool, ['edit', 'limits.poly', '--script', 'limits.txt', '-o', 'limits.' + format,
+      '--quiet']);
+    assert.deepEqual(await saved(page, '#save'), fs.readFileSync('limits.' + format), format);
+  }
+  await page.close();
+  await server.end();
+
+  // In space a box is written.
+  execFileSync(tool, ['gen', 'cube', '-o', 'limited.poly']);
+  server = await serve('limited.poly');
+  const space = await open(server);
+  assert.equal(await space.isVisible('#tool_limit'), false);
+  const before = (await state(space)).kept;
+  await space.selectOption('#limit_kind', 'largest');
+  await space.fill('#limit_value', '0.001');
+  await space.fill('#limit_box', '0 0 0, 0.5 0.5 0.5');
+  await space.click('#limit_in');
+  await until('a limit in space', async () => (await state(space)).kept > before);
+  await space.waitForTimeout(500);
+  await shot(space, 'limits_space');
+  await space.close();
   await server.end();
 };
 

@@ -5,6 +5,7 @@ what survives a kill.
     view_test.py TOOL DATA SCRATCH [SEED]
 """
 
+import http.client
 import json
 import os
 import random
@@ -204,8 +205,14 @@ def refuses_nonsense(seed):
                  {"do": "drag", "point": 99, "at": [0, 0]}, {"do": "drag", "point": 1},
                  {"do": "drag", "point": 1, "at": [90, 0]}, {"do": "undo"}, {"do": "redo"},
                  {"do": "script"}, {"do": "script", "text": ""}, {"do": "script", "text": "hello"},
-                 {"do": "script", "text": "limit area 0.001"},
                  {"do": "script", "text": "limit sizes /etc/passwd"},
+                 {"do": "script", "text": "limit area 1\nlimit \t sizes /etc/passwd"},
+                 {"do": "script", "text": "limit area -1"},
+                 {"do": "limit", "largest": -1}, {"do": "limit", "size": "x"},
+                 {"do": "limit", "size": 1, "largest": 1}, {"do": "limit", "box": [[0, 0]]},
+                 {"do": "limit", "size": .1, "box": [[1, 1], [0, 0]]},
+                 {"do": "limit", "size": .1, "box": [[0, 0, 0], [1, 1, 1]]},
+                 {"do": "unlimit"}, {"do": "unlimit", "box": [[0, 0], [1, 1]]},
                  {"do": "script", "text": "begin\n+point 60 .5 .5\n"},
                  {"do": "script", "text": "begin\n+point 60 .5 .5\n+point 60 .6 .5\ncommit\n"},
                  {"do": "script", "text": "+point 9007199254740993 .5 .5\n"}]
@@ -457,14 +464,277 @@ def draws_calls():
         assert client.ask(do="calls", on=3)["kind"] == "error"
 
 
+def edits_limits():
+    """Limits are given, changed, deleted, undone; also after the server was ended."""
+    boxes = {"left": [[0, 0], [.5, 1]], "low": [[0, 0], [1, .25]], "far": [[.75, .75], [1, 1]]}
+
+    def told(limits):
+        return [([b["lo"], b["hi"]], b["largest"]) for b in limits["boxes"]]
+
+    with Server(TOOL, "square.poly", "--journal", "limits.journal") as server:
+        client = Client(server)
+        mirror = Mirror(client.snapshot)
+        assert client.snapshot["limits"] == {"everywhere": None, "boxes": []}
+        counts = [client.snapshot["state"]["kept"]]
+
+        def do(**command):
+            change = client.ask(**command)
+            assert change["kind"] == "change", (command, change)
+            mirror.apply(change)
+            counts.append(change["state"]["kept"])
+            return change["limits"]
+
+        assert do(do="limit", largest=.01) == {"everywhere": .01, "boxes": []}
+        assert counts[1] > counts[0]
+        assert told(do(do="limit", box=boxes["left"], largest=.001)) == [(boxes["left"], .001)]
+        assert counts[2] > counts[1]
+        assert told(do(do="limit", box=boxes["left"], largest=.004)) == [(boxes["left"], .004)]
+        assert counts[1] < counts[3] < counts[2]
+        assert len(told(do(do="limit", box=boxes["low"], size=.02))) == 2
+        assert len(told(do(do="limit", box=boxes["far"], size=.01))) == 3
+        # Alone in its place, and over another one.
+        assert len(told(do(do="unlimit", box=boxes["far"]))) == 2
+        assert counts[-1] == counts[-3]
+        assert told(do(do="unlimit", box=boxes["left"]))[0][0] == boxes["low"]
+        assert len(told(do(do="limit", box=boxes["left"]))) == 2, "any size is a limit there, too"
+        assert do(do="limit") == {"everywhere": None, "boxes": []}
+        assert counts[-1] == counts[0]
+        same_as_snapshot(client, mirror)
+        done = len(counts) - 1
+        for i in range(1, 4):
+            limits = do(do="undo")
+            assert counts[-1] == counts[done - i], i
+        assert told(limits)[0][0] == boxes["left"] and len(limits["boxes"]) == 2
+        do(do="redo")
+        last = do(do="script", text="begin\nlimit area .005 in 0 0 .3 .3\n+point 50 .9 .9\ncommit\n")
+        require_replayed(server, "square.poly")
+        assert client.ask(do="fresh")["same"] is True
+        content = mirror.content()
+    with Server(TOOL, "square.poly", "--journal", "limits.journal") as server:
+        client = Client(server)
+        assert client.snapshot["limits"] == last
+        assert Mirror(client.snapshot).content()[0] == content[0]
+        before = client.snapshot["state"]
+        assert before["undo"] == done - 1
+        change = client.ask(do="undo")
+        assert change["limits"] != last and change["state"]["undo"] == before["undo"] - 1
+        while change["state"]["undo"] > 0:
+            change = client.ask(do="undo")
+            assert change["kind"] == "change", change
+        assert change["limits"] == {"everywhere": None, "boxes": []}
+        assert change["state"]["kept"] == counts[0]
+    # What came from a background, or a function, cannot be given again: no undo over it.
+    write("sizes.csv", b"x,y,h\n0,0,.1\n1,0,.1\n1,1,.3\n0,1,.3\n")
+    with Server(TOOL, "square.poly", "--sizes", "sizes.csv", "--journal", "ground.journal") as server:
+        client = Client(server)
+        assert client.snapshot["limits"] == {"everywhere": "background", "boxes": []}
+        client.ask(do="point", at=[.5, .5])
+        change = client.ask(do="limit", size=.05, box=boxes["left"])
+        assert change["state"]["undo"] == 0
+        assert change["limits"]["boxes"][0]["largest"] > 0
+        assert client.ask(do="unlimit", box=boxes["left"])["code"] == "bad_edit"
+    # In space, volumes.
+    with Server(TOOL, "cube.poly", "--journal", "space_limits.journal") as server:
+        client = Client(server)
+        before = client.snapshot["state"]["kept"]
+        change = client.ask(do="limit", largest=.002, box=[[0, 0, 0], [.5, .5, .5]])
+        assert change["limits"]["boxes"][0]["hi"] == [.5, .5, .5]
+        assert change["state"]["kept"] > before
+        require_replayed(server, "cube.poly", formats=("vtu",))
+        assert client.ask(do="undo")["state"]["kept"] == before
+
+
+def saves_pictures_of_the_last_update():
+    """An .svg has the bytes of `mesher edit`: what the last update brought is orange."""
+    with Server(TOOL, "square.poly", "--journal", "picture.journal") as server:
+        client = Client(server)
+        plain = server.get("save/mesh.svg")[1]
+        seen = [plain]
+        for command in ({"do": "point", "at": [.3, .4]},
+                        {"do": "line", "through": [[.2, .2], [.8, .25]]}, {"do": "undo"},
+                        {"do": "redo"}, {"do": "limit", "largest": .01}):
+            assert client.ask(**command)["kind"] == "change"
+            require_replayed(server, "square.poly", formats=("svg",))
+            seen.append(server.get("save/mesh.svg")[1])
+        # All that a drag did is one update, also what it brought and took away again.
+        for x in (.35, .6, .42):
+            client.ask(do="drag", point=5, at=[x, .45])
+        client.ask(do="drag", point=5, at=[.4, .45], drop=True)
+        script = require_replayed(server, "square.poly", formats=("svg",))
+        assert script.endswith(b"move 5 0.4 0.45\n")
+        seen.append(server.get("save/mesh.svg")[1])
+        # A drag that ends where it began is no update.
+        client.ask(do="drag", point=5, at=[.5, .5])
+        client.ask(do="drag", point=5, at=[.4, .45], drop=True)
+        assert server.get("save/mesh.svg")[1] == seen[-1]
+        assert seen[4] == seen[2] and len(set(seen)) == len(seen) - 1, "redo is as doing it"
+    with Server(TOOL, "square.poly", "--journal", "picture.journal") as server:
+        assert server.get("save/mesh.svg")[1] == seen[-1]
+    with Server(TOOL, "cube.poly", "--journal", "space_picture.journal") as server:
+        client = Client(server)
+        client.ask(do="point", at=[.5, .5, .5])
+        client.ask(do="drag", point=9, at=[.5, .6, .5])
+        client.ask(do="drag", point=9, at=[.5, .55, .5], drop=True)
+        require_replayed(server, "cube.poly", formats=("svg",))
+
+
+def comes_back_where_it_was():
+    """A server that is started again has the address of its journal, which is its user's alone."""
+    file = "back.journal.page"
+    server = Server(TOOL, "square.poly", "--journal", "back.journal")
+    address, run = server.address, Client(server).snapshot["run"]
+    assert contents(file).decode() == address + "\n"
+    assert os.stat(file).st_mode & 0o777 == 0o600
+    server.kill()
+    with Server(TOOL, "square.poly", "--journal", "back.journal") as server:
+        assert server.address == address
+        assert Client(server).snapshot["run"] != run
+    with Server(TOOL, "square.poly", "--journal", "other_back.journal") as server:
+        assert server.token not in address
+    # Another port that is asked for; one that is taken; another address that is asked for.
+    with socket.socket() as taken:
+        taken.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        taken.bind(("127.0.0.1", int(address.split(":")[2].split("/")[0])))
+        taken.listen()
+        with Server(TOOL, "square.poly", "--journal", "back.journal") as server:
+            assert server.address != address and server.token not in address
+            second = server.address
+    with Server(TOOL, "square.poly", "--journal", "back.journal", "--new-address") as server:
+        assert server.token not in second
+        third = server.address
+    # What others can read, or what is no address, is not used.
+    os.chmod(file, 0o644)
+    with Server(TOOL, "square.poly", "--journal", "back.journal") as server:
+        assert server.token not in third
+    good = contents(file)
+    for wrong in (b"", b"x\n", good.replace(b"127.0.0.1", b"127.0.0.2"), good[:-4] + b"/\n",
+                  good.replace(b"/\n", b"z\n"), good[:30].upper() + b"G" * 40 + b"/\n"):
+        write(file, wrong)
+        os.chmod(file, 0o600)
+        with Server(TOOL, "square.poly", "--journal", "back.journal") as server:
+            assert server.token not in good.decode()
+            assert contents(file).decode() == server.address + "\n"
+
+
+def begins_with_a_script():
+    """Edits that a new journal begins with; a page cannot undo them."""
+    write("start.txt", b"begin\n+point 7 .25 .25\n+point 8 .75 .25\n+segment 9 7 8 marker 4\n"
+          b"commit\nlimit sizes sizes.csv in 0 0 1 .5\n+hole 3 .9 .9\n")
+    for life in range(2):
+        with Server(TOOL, "square.poly", "--journal", "start.journal", "--script",
+                    "start.txt") as server:
+            client = Client(server)
+            mirror = Mirror(client.snapshot)
+            state = client.snapshot["state"]
+            assert mirror.points[8] == (.75, .25)
+            assert (state["updates"], state["undo"]) == (3 + life, life)
+            if life == 0:
+                client.ask(do="point", at=[.5, .9])
+            require_replayed(server, "square.poly", formats=("vtu", "svg"))
+            script = server.get("save/input.txt")[1].decode()
+            assert "+segment 9 7 8 marker 4" in script and "+hole 3 0.9 0.9" in script
+            assert "background" in script
+    # A kill may have left a part of it.
+    records = contents("start.journal").split(b"upd\n")
+    write("part.journal", b"upd\n".join(records[:3]))
+    with Server(TOOL, "square.poly", "--journal", "part.journal", "--script",
+                "start.txt") as server:
+        state = Client(server).snapshot["state"]
+        assert (state["updates"], state["undo"]) == (3, 0)
+    edit("square.poly", "--journal", "part.journal", "-o", "part.vtu")
+    edit("square.poly", "--script", "start.txt", "-o", "whole.vtu")
+    assert contents("part.vtu") == contents("whole.vtu")
+
+
+def takes_posted_scripts():
+    """For programs: a script is posted, and what pages did is read, without a web socket."""
+    with Server(TOOL, "square.poly", "--journal", "post.journal") as server:
+        client = Client(server)
+        mirror = Mirror(client.snapshot)
+
+        def post(text, path="edits", headers=None):
+            connection = http.client.HTTPConnection(server.host, server.port, timeout=60)
+            try:
+                connection.request("POST", server.path + path, body=text, headers=headers or {})
+                answer = connection.getresponse()
+                return answer.status, answer.read()
+            except (OSError, http.client.HTTPException):
+                return 0, b""
+            finally:
+                connection.close()
+
+        status, body = post("begin\n+point 20 .5 .5\n+point 21 .6 .5\n+segment 20 20 21\ncommit\n"
+                            "limit area .01\n")
+        assert status == 200 and json.loads(body)["updates"] == 2, body
+        for _ in range(2):
+            mirror.apply(client.receive())
+        same_as_snapshot(client, mirror)
+        lines = server.get("save/input.txt")[1].decode().splitlines()
+        assert lines[0] == "begin" and lines[-1] == "commit" and lines[-2] == "limit area 0.01"
+        assert "+segment 20 20 21" in lines and "+point 21 0.6 0.5" in lines
+        # Refused: nothing is changed.
+        for text, code in (("hello", "bad_edit"), ("", "bad_edit"), ("limit sizes x", "bad_edit"),
+                           ("-point 20", "point_in_use"), ("+point 22 9 9", "outside_domain")):
+            status, body = post(text)
+            assert status == 409 and json.loads(body)["code"] == code, (text, body)
+        # To nobody else, and nowhere else.
+        assert post("+point 30 .1 .1", headers={"Host": "example.org"})[0] in (0, 403)
+        assert post("+point 30 .1 .1", headers={"Origin": "http://example.org"})[0] in (0, 403)
+        assert post("+point 30 .1 .1", path="edit")[0] in (0, 405)
+        assert post("+point 30 .1 .1", path="../edits")[0] in (0, 405)
+        # 3 MB, which no message of a page may have.
+        big = "begin\n" + "".join(f"+point {i} {(i % 200) / 200 + .0025:.4f} "
+                                  f"{(i // 200) / 200 + .0025:.4f}\n"
+                                  for i in range(1000, 3000)) + "# " + "x" * 3000000 + "\ncommit\n"
+        assert post(big)[0] == 200
+        assert server.get("save/input.txt")[1].count(b"+point") == 2006
+        assert client.ask(do="snapshot")["state"]["updates"] == 3
+    # What it says makes the same mesh of nothing.
+    write("nothing.poly", b"0 2 0 0\n0 0\n0\n")
+    with Server(TOOL, "square.poly", "--journal", "post.journal") as server:
+        write("input.txt", server.get("save/input.txt")[1])
+        write("edits.txt", server.get("save/edits.txt")[1])
+    box = ("--domain", "0", "0", "1", "1")
+    edit("nothing.poly", *box, "--script", "input.txt", "-o", "a.vtu")
+    edit("square.poly", *box, "--script", "edits.txt", "-o", "b.vtu")
+    assert contents("a.vtu") == contents("b.vtu")
+
+
+def ends_with_its_parent():
+    starter = ("import subprocess, sys\n"
+               "p = subprocess.Popen(sys.argv[1:], stdout=subprocess.PIPE, text=True)\n"
+               "print(p.stdout.readline().strip(), p.pid, flush=True)\n"
+               "sys.stdin.read()\n")
+    parent = subprocess.Popen([sys.executable, "-c", starter, TOOL, "view", "square.poly", "--quiet",
+                               "--journal", "parent.journal", "--with-parent"],
+                              stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    pid = int(parent.stdout.readline().split()[1])
+    os.kill(pid, 0)
+    parent.kill()
+    parent.communicate()
+    for _ in range(200):
+        try:
+            os.kill(pid, 0)
+            with open(f"/proc/{pid}/stat") as stat:
+                if stat.read().rsplit(")", 1)[1].split()[0] == "Z":
+                    return
+        except OSError:
+            return
+        time.sleep(.05)
+    raise AssertionError("the view goes on without its parent")
+
+
 def refuses_options():
     def refuse(code, text, *arguments):
         done = subprocess.run([TOOL, "view", *arguments], capture_output=True, text=True, timeout=60)
         assert done.returncode == code and text in done.stderr, (arguments, done)
     refuse(2, "--port", "square.poly", "--port", "70000")
     refuse(2, "--port", "square.poly", "--port", "x")
-    refuse(2, "are for 'mesher edit'", "square.poly", "-o", "x.vtu")
-    refuse(2, "are for 'mesher edit'", "square.poly", "--static")
+    known = subprocess.run([TOOL, "view", "--help"], capture_output=True, text=True).stdout
+    for option in ("-o", "--static", "--stats"):
+        refuse(2, option, "square.poly", option, "x")
+        assert f" {option} " not in known, option
+    assert " --order " in known and " --script " in known
     refuse(2, "cannot be read", "nowhere.poly")
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
@@ -489,7 +759,9 @@ def main():
           b"4 4 1 4\n0\n")
     subprocess.run([TOOL, "gen", "cube", "-o", "cube.poly"], check=True)
     for test in (refuses_strangers, shows_edits_to_all, tells_of_full_disks, follows_in_space,
-                 draws_calls, refuses_options):
+                 draws_calls, edits_limits, saves_pictures_of_the_last_update,
+                 comes_back_where_it_was, begins_with_a_script, takes_posted_scripts,
+                 ends_with_its_parent, refuses_options):
         test()
     refuses_nonsense(seed)
     survives_kills(seed)
