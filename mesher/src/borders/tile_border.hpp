@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -63,27 +64,45 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
   // --- Complete of other tiles' vertices: what it has to do here
 
   struct Script {
-    std::map<std::uint32_t, double> questions;  // what is looked at for others: up to where
-    std::map<std::pair<Point<D>, int>, int> births;  // of which vertices, to be completed in which
-                                                     // bucket (or not): by how many messages
+    using Questions = std::map<std::uint32_t, double>;  // what is looked at for others: up to where
+    using Births = std::map<std::pair<Point<D>, int>, int>;  // of which vertices, to be completed in
+                                                             // which bucket (or not): by how many
+                                                             // messages
+    Questions questions;
+    Births births;
     sac::Ref<sac::Call> reader;
     [[nodiscard]] bool is_empty() const noexcept { return questions.empty() && births.empty(); }
   };
-  /// An edit, with its inverse noted for a roll-back. Returns: whether there was anything to do.
-  template <class Edit, class Undo>
-  bool edit_script(const Turn<D>& turn, Edit&& edit, Undo undo) {
-    edited_.push_back(turn);
-    Script& script = scripts_[turn];
-    const bool was_empty = script.is_empty();
-    engine_.begin_edit();
-    engine_.on_rollback([this, turn, undo] {
-      Script& now = scripts_[turn];
-      undo(now);
-      changed(now);
-    });
-    edit(script);
-    changed(script);
-    return !was_empty;
+  // Edits, which are undone in a roll-back: what that puts back is kept, so it allocates nothing.
+  // They return whether there was anything to do before.
+  bool begin_question(const Turn<D>& turn, std::uint32_t id, double radius) {
+    return edit_script(
+        turn, [=](Script& script, Kept&) { script.questions.emplace(id, radius); },
+        [=](Script& script, Kept&) { script.questions.erase(id); });
+  }
+  bool end_question(const Turn<D>& turn, std::uint32_t id) {
+    return edit_script(
+        turn,
+        [=](Script& script, Kept& kept) { kept.question = script.questions.extract(id); },
+        [](Script& script, Kept& kept) { script.questions.insert(std::move(kept.question)); });
+  }
+  bool begin_birth(const Turn<D>& turn, const Point<D>& p, int bucket) {
+    const std::pair key(p, bucket);
+    return edit_script(
+        turn, [=](Script& script, Kept&) { ++script.births[key]; },
+        [=](Script& script, Kept& kept) { take_birth(script, key, kept); });
+  }
+  bool end_birth(const Turn<D>& turn, const Point<D>& p, int bucket) {
+    const std::pair key(p, bucket);
+    return edit_script(
+        turn, [=](Script& script, Kept& kept) { take_birth(script, key, kept); },
+        [=](Script& script, Kept& kept) {
+          if (kept.birth) {
+            script.births.insert(std::move(kept.birth)).position->second = 1;
+          } else {
+            ++script.births.at(key);
+          }
+        });
   }
   [[nodiscard]] bool has_script(const Turn<D>& turn) const {
     const auto it = scripts_.find(turn);
@@ -175,7 +194,7 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     Birth<D> birth;
     int sign;
   };
-  [[nodiscard]] std::vector<LookEvent> take_looks() { return std::exchange(looks_, {}); }
+  [[nodiscard]] std::vector<LookEvent> take_looks() { return taken(looks_); }
   /// Calls visit(look, area) for all looks beyond the territory.
   template <class Visit>
   void for_each_look(Visit&& visit) const {
@@ -191,13 +210,13 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     const auto it = crossing_.find(engine_.arena().handle_of(e.seen));
     return it != crossing_.end() && it->second.first == e.look;
   }
-  [[nodiscard]] std::vector<BirthEvent> take_births() { return std::exchange(births_, {}); }
+  [[nodiscard]] std::vector<BirthEvent> take_births() { return taken(births_); }
   /// The questions whose answers may have changed; some more than once.
-  [[nodiscard]] std::vector<std::uint32_t> take_answered() { return std::exchange(answered_, {}); }
+  [[nodiscard]] std::vector<std::uint32_t> take_answered() { return taken(answered_); }
   /// Who was found; nobody if the question is no more.
   [[nodiscard]] std::span<const VertexHandle> answer_to(std::uint32_t id) const {
     const auto it = answers_.find(id);
-    if (it == answers_.end()) return {};
+    if (it == answers_.end() || it->second == nullptr) return {};
     const Answer& edge = engine_.arena()[it->second];
     return {edge.found(), edge.count};
   }
@@ -255,8 +274,41 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     std::uint32_t error;
   };
 
+  struct Kept {
+    bool is_done = false;
+    typename Script::Questions::node_type question;
+    typename Script::Births::node_type birth;
+  };
+  static void take_birth(Script& script, const std::pair<Point<D>, int>& key, Kept& kept) noexcept {
+    const auto it = script.births.find(key);
+    if (--it->second == 0) kept.birth = script.births.extract(it);
+  }
+  template <class Edit, class Undo>
+  bool edit_script(const Turn<D>& turn, Edit edit, Undo undo) {
+    edited_.push_back(turn);
+    Script& script = scripts_[turn];  // stays where it is until it can no longer be undone
+    const bool was_empty = script.is_empty();
+    engine_.begin_edit();
+    const auto memory = std::make_shared<Kept>();
+    engine_.on_rollback([this, &script, memory, undo] {
+      if (!memory->is_done) return;
+      undo(script, *memory);
+      changed(script);
+    });
+    edit(script, *memory);
+    memory->is_done = true;
+    changed(script);
+    return !was_empty;
+  }
   void changed(const Script& script) noexcept {
     if (script.reader != nullptr) engine_.invalidate(engine_.call(script.reader));
+  }
+  // The room stays.
+  template <class Event>
+  static std::vector<Event> taken(std::vector<Event>& events) {
+    std::vector<Event> all = events;
+    events.clear();
+    return all;
   }
   // For one event more, and for each of `live` to be taken back, which must not allocate.
   template <class Event>

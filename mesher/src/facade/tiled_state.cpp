@@ -172,6 +172,7 @@ auto TiledState<D>::make(const PointEdits<D>& edits, Moves& moves) -> TileEdits 
   }
   std::sort(changed.begin(), changed.end());
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  moves.levels.reserve(changed.size());
   for (const VertexHandle h : changed) {
     const auto has = [h](const auto& move) { return move.second == h; };
     if (std::any_of(moves.gone.begin(), moves.gone.end(), has)) continue;

@@ -147,23 +147,16 @@ void TileMesher<D>::carry_out(const Order& order) {
 // Complete here.
 template <int D>
 void TileMesher<D>::carry_out_in_complete(const Order& order, int bucket) {
-  using Script = typename TileBorder<D>::Script;
-  const auto change = [order](Script& script, bool begins) {
+  const auto edit = [&] {
+    const Turn<D>& turn = order.turn;
     if (order.kind == Order::Kind::ask) {
-      if (begins) {
-        script.questions.emplace(order.name, order.radius);
-      } else {
-        script.questions.erase(order.name);
-      }
-    } else {
-      const auto it = script.births.try_emplace({order.p, order.number}, 0).first;
-      it->second += begins ? 1 : -1;
-      if (it->second == 0) script.births.erase(it);
+      return order.begins ? border_->begin_question(turn, order.name, order.radius)
+                          : border_->end_question(turn, order.name);
     }
+    return order.begins ? border_->begin_birth(turn, order.p, order.number)
+                        : border_->end_birth(turn, order.p, order.number);
   };
-  const bool was_there = border_->edit_script(
-      order.turn, [&](Script& script) { change(script, order.begins); },
-      [change, begins = order.begins](Script& script) { change(script, !begins); });
+  const bool was_there = edit();
   const bool is_there = border_->has_script(order.turn);
   if (was_there == is_there) return;
   const VertexRef<D> v = world_->vertices.claim(order.turn.p);

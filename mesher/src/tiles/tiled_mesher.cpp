@@ -86,6 +86,12 @@ void TiledMesher<D>::watch(const Ask& ask) {
   }
 }
 
+template <int D>
+void TiledMesher<D>::unwatch() noexcept {
+  ask_ = nullptr;
+  stops_ = false;
+}
+
 // --- Rounds ----------------------------------------------------------------------------------
 
 template <int D>
@@ -227,7 +233,7 @@ void TiledMesher<D>::first_run(const Edits& edits, const Ask& ask) {
   begin(Phase::triangulate);
   run_all(kMany, [&](TileMesher<D>& tile, std::size_t) { tile.run_stars(); });
   end();
-  watch({});
+  unwatch();
 }
 
 template <int D>
@@ -253,7 +259,7 @@ void TiledMesher<D>::update(const Edits& edits, const Ask& ask,
     take_back(edits);
     throw;
   }
-  watch({});
+  unwatch();
 }
 
 // The edits have been made, or wait to be. What is told of the mesh is forgotten: at the end it is
@@ -262,8 +268,8 @@ template <int D>
 void TiledMesher<D>::take_back(const Edits& edits) noexcept {
   broken_ = true;
   if (!is_exact_) return;
+  unwatch();
   try {
-    watch({});
     for (std::size_t t = 0; t < tiles_.size(); ++t) {
       std::vector<typename TileMesher<D>::Edit> inverse;
       for (auto it = edits[t].rbegin(); it != edits[t].rend(); ++it) {

@@ -121,6 +121,7 @@ class TiledMesher {
   template <class Act>
   void run(const std::vector<std::size_t>& which, std::uint64_t work, Act&& act);
   void watch(const Ask& ask);
+  void unwatch() noexcept;
   void exchange();
   void settle(Changes* changes);
   void require_all() const;
