@@ -88,7 +88,8 @@ class Territories {
   static int longest_axis(const Point<D>* begin, const Point<D>* end) {
     Point<D> lo = *begin, hi = *begin;
     for (const Point<D>* p = begin; p != end; ++p) {
-      for (int i = 0; i < D; ++i) lo[i] = std::min(lo[i], (*p)[i]), hi[i] = std::max(hi[i], (*p)[i]);
+      for (int i = 0; i < D; ++i)
+        lo[i] = std::min(lo[i], (*p)[i]), hi[i] = std::max(hi[i], (*p)[i]);
     }
     int longest = 0;
     for (int i = 1; i < D; ++i) {

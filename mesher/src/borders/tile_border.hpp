@@ -6,8 +6,8 @@
 //   fault(s, error)      the running call cannot do what it should                   (effect)
 //
 // and the observations of the tile's own calls that reach beyond the territory. Between runs it is
-// asked what has changed since. While tiles do not agree yet, a call may meet vertices that will not
-// be there in the end; so a fault counts only when they do.
+// asked what has changed since. While tiles do not agree yet, a call may meet vertices that will
+// not be there in the end; so a fault counts only when they do.
 #pragma once
 
 #include <cstdint>
@@ -21,11 +21,11 @@
 #include <utility>
 #include <vector>
 
+#include "borders/territory.hpp"
+#include "borders/turn.hpp"
 #include "index/look_listener.hpp"
 #include "mesher/error.hpp"
 #include "sac/sac.hpp"
-#include "borders/territory.hpp"
-#include "borders/turn.hpp"
 
 namespace mesher::detail {
 
@@ -34,11 +34,7 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
  public:
   /// `side`: of the meshing box.
   TileBorder(sac::Engine& engine, const Territories<D>& all, std::size_t self, double side)
-      : engine_(engine),
-        all_(all),
-        self_(self),
-        side_(side),
-        id_(engine.add_structure(*this)) {}
+      : engine_(engine), all_(all), self_(self), side_(side), id_(engine.add_structure(*this)) {}
   TileBorder(const TileBorder&) = delete;
   TileBorder& operator=(const TileBorder&) = delete;
 
@@ -65,9 +61,9 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
 
   struct Script {
     using Questions = std::map<std::uint32_t, double>;  // what is looked at for others: up to where
-    using Births = std::map<std::pair<Point<D>, int>, int>;  // of which vertices, to be completed in
-                                                             // which bucket (or not): by how many
-                                                             // messages
+    using Births = std::map<std::pair<Point<D>, int>, int>;  // of which vertices, to be completed
+                                                             // in which bucket (or not): by how
+                                                             // many messages
     Questions questions;
     Births births;
     sac::Ref<sac::Call> reader;
@@ -82,8 +78,7 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
   }
   bool end_question(const Turn<D>& turn, std::uint32_t id) {
     return edit_script(
-        turn,
-        [=](Script& script, Kept& kept) { kept.question = script.questions.extract(id); },
+        turn, [=](Script& script, Kept& kept) { kept.question = script.questions.extract(id); },
         [](Script& script, Kept& kept) { script.questions.insert(std::move(kept.question)); });
   }
   bool begin_birth(const Turn<D>& turn, const Point<D>& p, int bucket) {

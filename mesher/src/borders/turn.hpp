@@ -13,7 +13,8 @@ namespace mesher::detail {
 /// The agendas of the program, in their order.
 enum class Stage : std::uint8_t { quadtree, steiner, stars };
 
-/// `p`: of Complete, the place of its vertex; calls of one rank and order run in the order of these.
+/// `p`: of Complete, the place of its vertex; calls of one rank and order run in the order of
+/// these.
 template <int D>
 struct Turn {
   Stage stage = Stage::quadtree;

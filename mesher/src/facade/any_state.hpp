@@ -23,7 +23,9 @@ class AnyState {
   /// Inserts the features and runs the program. Requires: no run yet; edits insert, and leave
   /// limits as they are.
   virtual Change<D> first_run(Edits<D> edits, const RunControl& control, const Accept& accept) = 0;
-  /// Makes the edits and propagates them. Requires: a run.
+  /// Whether propagate() can make these edits. If not, a first run of all can.
+  [[nodiscard]] virtual bool takes(const Edits<D>& edits) const noexcept = 0;
+  /// Makes the edits and propagates them. Requires: a run; takes(edits).
   /// `accept`: asked when all can still be undone.
   virtual Change<D> propagate(const Edits<D>& edits, const RunControl& control,
                               const Accept& accept) = 0;

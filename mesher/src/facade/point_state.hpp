@@ -36,6 +36,7 @@ class PointState : public AnyState<D> {
   ~PointState() override;
 
   Change<D> first_run(Edits<D> edits, const RunControl& control, const Accept& accept) override;
+  [[nodiscard]] bool takes(const Edits<D>&) const noexcept override { return true; }
   Change<D> propagate(const Edits<D>& edits, const RunControl& control,
                       const Accept& accept) override;
 
@@ -122,7 +123,6 @@ class PointState : public AnyState<D> {
   void forget() noexcept;
   void require_room(std::size_t vertices) const;
   [[nodiscard]] std::vector<VertexHandle> live_vertices() const;
-  [[nodiscard]] Change<D> whole(const Mesh<D>& mesh) const;
   [[nodiscard]] std::array<Point<D>, D + 1> corners(const Simplex& s) const;
   void report_vertices(const Log& log, Change<D>& change) const;
   void own_simplices(const typename ChangeLog<D>::Star& star, std::vector<Simplex>& all) const;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "facade/whole_change.hpp"
 #include "program/meter.hpp"
 #include "rules/mesh_box.hpp"
 #include "sizes/limits_of.hpp"
@@ -19,21 +20,13 @@ bool has_slivers(const Options<D>& options) {
   return false;
 }
 
-template <int D>
-void require_points_alone(const Edits<D>& edits) {
-  if (!edits.lines.has_edits() && !edits.polygons.has_edits() && !edits.limits) return;
-  throw Error(ErrorCode::bad_option,
-              "lines, polygons and limits of size are for a mesher with one thread, or for its "
-              "first update");
-}
-
 }  // namespace
 
 template <int D>
 bool may_be_tiled(const Options<D>& options, const Edits<D>& edits) {
-  return options.threads > 1 && options.rule == Rule::radius_edge && edits.points.size() > 1 && !edits.lines.has_edits() &&
-         !edits.polygons.has_edits() && !options.record_weights && !has_slivers(options) &&
-         !LimitsOf<D>(options, mesh_box(options)).any();
+  return options.threads > 1 && options.rule == Rule::radius_edge && edits.points.size() > 1 &&
+         !edits.lines.has_edits() && !edits.polygons.has_edits() && !options.record_weights &&
+         !has_slivers(options) && !LimitsOf<D>(options, mesh_box(options)).any();
 }
 
 template <int D>
@@ -119,20 +112,18 @@ Change<D> TiledState<D>::first_run(Edits<D> edits, const RunControl& control,
                                : stats_.seconds_triangulate;
     seconds = tiles_->seconds()[i];
   }
-  Change<D> change;
-  change.vertices_added = mesh.vertices;
-  change.kinds_added = mesh.kinds;
-  change.simplices_added.reserve(mesh.simplices.size());
-  for (const auto& s : mesh.simplices) {
-    auto& corners = change.simplices_added.emplace_back();
-    for (std::size_t k = 0; k < s.size(); ++k) corners[k] = mesh.vertices[s[k]];
-  }
+  Change<D> change = whole_change(mesh);
   change.calls.executed = tiles_->calls();
   if (accept) accept(change);
   return change;
 }
 
 // --- Updates ---------------------------------------------------------------------------------
+
+template <int D>
+bool TiledState<D>::takes(const Edits<D>& edits) const noexcept {
+  return !edits.lines.has_edits() && !edits.polygons.has_edits() && !edits.limits;
+}
 
 // Changes the set of points, and says what that is to the tiles.
 template <int D>
@@ -153,14 +144,13 @@ auto TiledState<D>::make(const PointEdits<D>& edits, Moves& moves) -> TileEdits 
     by_tile[owner(points_[h].p)].push_back({points_[h].p, names_[h].level, std::nullopt});
     make_room();
     features_.erase(points_[h], note);
-    moves.gone.emplace_back(edit.id, h);
-    ids_.erase(edit.id);
+    moves.gone.push_back(ids_.extract(edit.id));
   }
   for (const auto& edit : edits) {
     if (!edit.to) continue;
     const VertexHandle h = add_point(edit.id, *edit.to);
-    make_room();
     try {
+      make_room();
       features_.insert(points_[h], note);
     } catch (...) {
       ids_.erase(edit.id);
@@ -174,7 +164,7 @@ auto TiledState<D>::make(const PointEdits<D>& edits, Moves& moves) -> TileEdits 
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   moves.levels.reserve(changed.size());
   for (const VertexHandle h : changed) {
-    const auto has = [h](const auto& move) { return move.second == h; };
+    const auto has = [h](const auto& node) { return node.mapped() == h; };
     if (std::any_of(moves.gone.begin(), moves.gone.end(), has)) continue;
     const Vertex<D>& v = points_[h];
     if (names_[h].level == v.level) continue;
@@ -185,23 +175,23 @@ auto TiledState<D>::make(const PointEdits<D>& edits, Moves& moves) -> TileEdits 
 }
 
 template <int D>
-void TiledState<D>::take_back(const Moves& moves) {
+void TiledState<D>::take_back(Moves moves) {
   for (const auto& [h, level] : moves.levels) names_[h].level = level;
   for (const auto& [id, h] : moves.come) {
     features_.erase(points_[h], [](const Vertex<D>&) {});
     ids_.erase(id);
     points_.release(points_[h]);
   }
-  for (const auto& [id, h] : moves.gone) {
-    features_.insert(points_[h], [](const Vertex<D>&) {});
-    ids_[id] = h;
+  for (auto& node : moves.gone) {
+    features_.insert(points_[node.mapped()], [](const Vertex<D>&) {});
+    ids_.insert(std::move(node));
   }
 }
 
 template <int D>
 Change<D> TiledState<D>::propagate(const Edits<D>& edits, const RunControl& control,
                                    const Accept& accept) {
-  require_points_alone(edits);
+  SAC_EXPECTS(takes(edits));
   Moves moves;
   Change<D> change;
   const auto ask = [&](Phase phase, std::uint64_t calls) {
@@ -216,11 +206,11 @@ Change<D> TiledState<D>::propagate(const Edits<D>& edits, const RunControl& cont
       if (accept) accept(change);
     });
   } catch (...) {
-    take_back(moves);
+    take_back(std::move(moves));
     if (tiles_->is_broken()) tiles_ = build({});  // the mesh is a function of the points
     throw;
   }
-  for (const auto& [id, h] : moves.gone) points_.release(points_[h]);
+  for (const auto& node : moves.gone) points_.release(points_[node.mapped()]);
   stats_.vertices += change.vertices_added.size() - change.vertices_removed.size();
   stats_.simplices += change.simplices_added.size() - change.simplices_removed.size();
   return change;

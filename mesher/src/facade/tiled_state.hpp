@@ -26,14 +26,17 @@ class TiledState final : public AnyState<D> {
   explicit TiledState(const Options<D>& options);
 
   Change<D> first_run(Edits<D> edits, const RunControl& control, const Accept& accept) override;
-  /// Throws: Error(bad_option) also if the edits are not of points alone.
+  /// Points alone.
+  [[nodiscard]] bool takes(const Edits<D>& edits) const noexcept override;
   Change<D> propagate(const Edits<D>& edits, const RunControl& control,
                       const Accept& accept) override;
 
   [[nodiscard]] bool ran() const noexcept override { return tiles_ != nullptr; }
   [[nodiscard]] Mesh<D> mesh() const override { return tiles_->mesh(); }
   [[nodiscard]] MeshStats stats() const override;
-  [[nodiscard]] const sac::Engine& engine() const noexcept override { return (*tiles_)[0].engine(); }
+  [[nodiscard]] const sac::Engine& engine() const noexcept override {
+    return (*tiles_)[0].engine();
+  }
 
   [[nodiscard]] std::size_t size() const noexcept override { return ids_.size(); }
   [[nodiscard]] typename Pending<D>::Place place(PointId id) const override;
@@ -45,6 +48,7 @@ class TiledState final : public AnyState<D> {
   [[nodiscard]] const TiledMesher<D>& tiles() const noexcept { return *tiles_; }
 
  private:
+  using Ids = std::unordered_map<PointId, VertexHandle>;
   using TileEdits = typename TiledMesher<D>::Edits;
   using TileChanges = typename TiledMesher<D>::Changes;
 
@@ -55,21 +59,22 @@ class TiledState final : public AnyState<D> {
   };
   // What an update does here, so that it can be taken back.
   struct Moves {
-    std::vector<std::pair<PointId, VertexHandle>> gone, come;
+    std::vector<typename Ids::node_type> gone;
+    std::vector<std::pair<PointId, VertexHandle>> come;
     std::vector<std::pair<VertexHandle, std::optional<int>>> levels;  // as they were
   };
 
   [[nodiscard]] std::unique_ptr<TiledMesher<D>> build(const typename TiledMesher<D>::Ask& ask);
   VertexHandle add_point(PointId id, const Point<D>& p);
   [[nodiscard]] TileEdits make(const PointEdits<D>& edits, Moves& moves);
-  void take_back(const Moves& moves);
+  void take_back(Moves moves);
   [[nodiscard]] Change<D> change_of(TileChanges& changes) const;
 
   Options<D> options_;
   MeshBox<D> box_;
   VertexPool<D> points_;
   FeatureTree<D> features_;
-  std::unordered_map<PointId, VertexHandle> ids_;
+  Ids ids_;
   std::vector<Name> names_;  // by handle
   std::unique_ptr<TiledMesher<D>> tiles_;
   MeshStats stats_;

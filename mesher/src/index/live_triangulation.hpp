@@ -30,10 +30,10 @@ enum class Of : bool { all_records, vertices };
 template <int D>
 class LiveTriangulation {
  public:
-  /// Of all vertices of the pool, or all records: see `Of`. `good2`: a simplex with a circumradius, squared, below this times
-  /// its shortest edge, squared, is good. `step()` is called for each vertex.
-  /// Returns: null if that would have far more simplices than vertices.
-  /// Requires: handles are 1 .. pool.size(). Throws: what step() throws, Error(too_many).
+  /// Of all vertices of the pool, or all records: see `Of`. `good2`: a simplex with a circumradius,
+  /// squared, below this times its shortest edge, squared, is good. `step()` is called for each
+  /// vertex. Returns: null if that would have far more simplices than vertices. Requires: handles
+  /// are 1 .. pool.size(). Throws: what step() throws, Error(too_many).
   [[nodiscard]] static std::unique_ptr<LiveTriangulation> of(const VertexPool<D>& pool,
                                                              double good2,
                                                              const std::function<void()>& step,

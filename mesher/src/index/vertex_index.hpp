@@ -173,7 +173,10 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   /// In a first run: cells are asked for from here on. All records are, or will be, vertices.
   void begin_questions();
   /// Of a tile, before the parts of its first run: the cells of these are read from here on.
-  void begin_reading() { live_ = LiveTriangulation<D>::of(pool_, 0, [] {}, Of::vertices); }
+  void begin_reading() {
+    live_ = LiveTriangulation<D>::of(
+        pool_, 0, [] {}, Of::vertices);
+  }
   /// Between the parts: these may have come or gone since.
   void keep_reading(const std::vector<VertexHandle>& touched);
   void end_reading() noexcept { live_.reset(); }

@@ -55,8 +55,8 @@ struct Filled {
   bool fails = false;    // a gap ball cannot be filled
 };
 
-/// No vertex that Complete inserts has another nearer to it than this, in clips. (It is inserted for
-/// a length of its bucket or one before, to which it is no nearer than 1 / (gamma rho) clips.)
+/// No vertex that Complete inserts has another nearer to it than this, in clips. (It is inserted
+/// for a length of its bucket or one before, to which it is no nearer than 1 / (gamma rho) clips.)
 inline constexpr double kFarthestIn = 0.125;
 
 /// The vertex at `point`, which fills a gap ball of v. In a tile nothing, if that is not possible:
@@ -64,8 +64,8 @@ inline constexpr double kFarthestIn = 0.125;
 /// are two versions of one vertex, in two tiles: to refine the mesh down to their distance would
 /// take long.
 template <class S, int D>
-std::optional<VertexRef<D>> fill_at(S& s, World<S, D>& w, CellOf<D>& gaps, const Vertex<D>& v, int b,
-                                    const typename InsertionRule<D>::NewPoint& point) {
+std::optional<VertexRef<D>> fill_at(S& s, World<S, D>& w, CellOf<D>& gaps, const Vertex<D>& v,
+                                    int b, const typename InsertionRule<D>::NewPoint& point) {
   const auto fill = [&] {
     const VertexRef<D> x = w.vertices.insert(s, point.p);
     if (!point.farther || !gaps.cuts(x->p)) w.fail_useless(v, *x);
@@ -110,8 +110,8 @@ Filled fill_gaps(S& s, World<S, D>& w, CellOf<D>& gaps, Staying<S, D>& stays, co
   return filled;
 }
 
-/// Complete(v, b) where v is another tile's: what that has seen here is looked at again, and what it
-/// has inserted is born.
+/// Complete(v, b) where v is another tile's: what that has seen here is looked at again, and what
+/// it has inserted is born.
 template <int D>
 void complete_for_another(sac::Scope& s, World<sac::Scope, D>& w, VertexRef<D> v) {
   const auto& script = w.border->read_script(s);

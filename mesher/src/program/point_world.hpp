@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "borders/tile_border.hpp"
 #include "geometry/grid.hpp"
 #include "index/features.hpp"
 #include "index/subdivision.hpp"
@@ -21,7 +22,6 @@
 #include "rules/insertion_rule.hpp"
 #include "sac/sac.hpp"
 #include "sizes/limits_of.hpp"
-#include "borders/tile_border.hpp"
 
 namespace mesher::detail {
 
@@ -58,10 +58,10 @@ struct PointWorld {
   Agenda& steiner;
   Agenda& stars;
   std::size_t most_vertices;
-  std::size_t most_records;      // while an update is under way, of vertices that come and that go
-  TileBorder<D>* border = nullptr;      // of a tile; null: this is all
-  std::vector<Agenda*> parts;           // of a tile: `steiner` by buckets, from the first on
-  const Names* names = nullptr;  // for messages; null: features have none
+  std::size_t most_records;  // while an update is under way, of vertices that come and that go
+  TileBorder<D>* border = nullptr;  // of a tile; null: this is all
+  std::vector<Agenda*> parts;       // of a tile: `steiner` by buckets, from the first on
+  const Names* names = nullptr;     // for messages; null: features have none
   std::conditional_t<S::kTraced, TracedOutput, PlainOutput<D>> plain;
   std::array<std::chrono::steady_clock::time_point, 4> marks{};
 

@@ -11,8 +11,8 @@
 namespace mesher::detail {
 
 template <int D>
-TileMesher<D>::TileMesher(const Options<D>& options, const MeshBox<D>& box, const Territories<D>& all,
-              std::size_t self)
+TileMesher<D>::TileMesher(const Options<D>& options, const MeshBox<D>& box,
+                          const Territories<D>& all, std::size_t self)
     : all_(all),
       self_(self),
       engine_(std::make_unique<sac::Engine>()),
@@ -23,7 +23,8 @@ TileMesher<D>::TileMesher(const Options<D>& options, const MeshBox<D>& box, cons
   border_->attach(world_->vertices.pool(), world_->quadtree.number(), world_->stars.number());
   world_->vertices.set_listener(border_.get());
   world_->most_records = ~std::size_t{0};  // all tiles together have a limit
-  world_->vertices.pool().for_each([&](const Vertex<D>& v) { own_vertices_ += border_->owns(v.p); });
+  world_->vertices.pool().for_each(
+      [&](const Vertex<D>& v) { own_vertices_ += border_->owns(v.p); });
 }
 
 template <int D>
@@ -183,8 +184,8 @@ void TileMesher<D>::post_orders() {
 template <int D>
 void TileMesher<D>::watch(std::function<bool(std::uint64_t)> report) {
   constexpr std::uint64_t kEvery = RunControl::kCallsBetween;
-  engine_->set_progress([report = std::move(report)](const sac::Progress&) { return report(kEvery); },
-                        kEvery);
+  engine_->set_progress(
+      [report = std::move(report)](const sac::Progress&) { return report(kEvery); }, kEvery);
 }
 
 // --- Runs ------------------------------------------------------------------------------------
@@ -398,9 +399,8 @@ void TileMesher<D>::collect_changes(Changes& changes) const {
 template <int D>
 bool TileMesher<D>::has_arrived(std::size_t from, const Point<D>& p, const Turn<D>& turn) const {
   const auto [first, last] = from_.equal_range(p);
-  return std::any_of(first, last, [&](const auto& f) {
-    return f.second.tile == from && f.second.turn == turn;
-  });
+  return std::any_of(first, last,
+                     [&](const auto& f) { return f.second.tile == from && f.second.turn == turn; });
 }
 
 template <int D>

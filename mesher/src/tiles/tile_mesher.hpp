@@ -18,9 +18,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "program/world.hpp"
 #include "borders/tile_border.hpp"
 #include "borders/turn.hpp"
+#include "program/world.hpp"
 
 namespace mesher::detail {
 
@@ -58,7 +58,7 @@ class TileMesher {
   };
 
   TileMesher(const Options<D>& options, const MeshBox<D>& box, const Territories<D>& all,
-       std::size_t self);
+             std::size_t self);
   TileMesher(const TileMesher&) = delete;
   TileMesher& operator=(const TileMesher&) = delete;
   ~TileMesher();
@@ -134,7 +134,7 @@ class TileMesher {
     std::uint32_t name;  // ask: the question; arrive: from which tile
     double radius;
   };
-  struct Asked {  // of another tile
+  struct Asked {                                                    // of another tile
     std::unordered_map<Look<D>, std::uint32_t, TurnHash<D>> looks;  // how often
   };
   struct Asker {  // another tile

@@ -14,8 +14,13 @@ namespace mesher::detail {
 
 template <int D>
 TiledMesher<D>::TiledMesher(const Options<D>& options, const MeshBox<D>& box,
-                const std::vector<Point<D>>& places, std::size_t tiles, std::size_t threads)
-    : options_(options), threads_(threads), all_(places, tiles), out_(all_.size()), waiting_(all_.size()) {
+                            const std::vector<Point<D>>& places, std::size_t tiles,
+                            std::size_t threads)
+    : options_(options),
+      threads_(threads),
+      all_(places, tiles),
+      out_(all_.size()),
+      waiting_(all_.size()) {
   for (std::size_t t = 0; t < all_.size(); ++t) {
     tiles_.push_back(std::make_unique<TileMesher<D>>(options, box, all_, t));
   }
@@ -23,8 +28,9 @@ TiledMesher<D>::TiledMesher(const Options<D>& options, const MeshBox<D>& box,
 
 // --- Threads ---------------------------------------------------------------------------------
 
-// Calls act(t) for these tiles, on up to threads_ threads; on one if there is little work, in calls.
-// Throws: what act() has thrown, that of the first tile; but being stopped only if that is all.
+// Calls act(t) for these tiles, on up to threads_ threads; on one if there is little work, in
+// calls. Throws: what act() has thrown, that of the first tile; but being stopped only if that is
+// all.
 template <int D>
 template <class Act>
 void TiledMesher<D>::run(const std::vector<std::size_t>& which, std::uint64_t work_to_do,
@@ -243,7 +249,7 @@ void TiledMesher<D>::require_sound() const {
 
 template <int D>
 void TiledMesher<D>::update(const Edits& edits, const Ask& ask,
-                      const std::function<void(Changes&)>& last) {
+                            const std::function<void(Changes&)>& last) {
   require_sound();
   phase_ = Phase::update;
   watch(ask);

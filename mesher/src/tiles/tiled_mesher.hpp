@@ -16,8 +16,8 @@
 #include <utility>
 #include <vector>
 
-#include "mesher/meshing.hpp"
 #include "borders/territory.hpp"
+#include "mesher/meshing.hpp"
 #include "tiles/tile_mesher.hpp"
 
 namespace mesher::detail {
@@ -68,8 +68,8 @@ class Outbox {
   }
   static Message<D> message(const std::pair<const Key, int>& waiting) {
     const auto& [k, sign] = waiting;
-    const Kind kind = k.is_birth ? (sign > 0 ? Kind::arrive : Kind::depart)
-                                 : (sign > 0 ? Kind::ask : Kind::end);
+    const Kind kind =
+        k.is_birth ? (sign > 0 ? Kind::arrive : Kind::depart) : (sign > 0 ? Kind::ask : Kind::end);
     return {kind, k.to, k.look, k.birth};
   }
   static Time time(const Turn<D>& turn) noexcept {
@@ -87,7 +87,7 @@ class TiledMesher {
 
   /// `places`: of the input's points, which say where the cuts are.
   TiledMesher(const Options<D>& options, const MeshBox<D>& box, const std::vector<Point<D>>& places,
-        std::size_t tiles, std::size_t threads);
+              std::size_t tiles, std::size_t threads);
 
   /// `control` is asked, on the thread of the caller, while something runs. `ask(phase, calls)`:
   /// false if the run shall stop.

@@ -43,7 +43,8 @@ template <int D>
 bool is_same(const Change<D>& a, const Change<D>& b) {
   return a.vertices_added == b.vertices_added && a.kinds_added == b.kinds_added &&
          a.vertices_removed == b.vertices_removed && a.kinds_changed == b.kinds_changed &&
-         a.simplices_added == b.simplices_added && a.simplices_removed == b.simplices_removed;
+         a.simplices_added == b.simplices_added && a.simplices_removed == b.simplices_removed &&
+         a.edges_added == b.edges_added && a.edges_removed == b.edges_removed;
 }
 
 // The same edits of two meshers, one of which has several threads.
@@ -51,7 +52,9 @@ template <int D>
 class Pair {
  public:
   Pair(const std::vector<Point<D>>& points, int threads)
-      : options_(options_for<D>(points, threads)), many_(options_), one_(options_for<D>(points, 1)) {
+      : options_(options_for<D>(points, threads)),
+        many_(options_),
+        one_(options_for<D>(points, 1)) {
     for (const Point<D>& p : points) insert(p);
     update();
   }
@@ -68,14 +71,16 @@ class Pair {
   }
   void remove_any(SplitMix64& random) {
     if (points_.empty()) return;
-    const auto it = std::next(points_.begin(), static_cast<std::ptrdiff_t>(random.below(points_.size())));
+    const auto it =
+        std::next(points_.begin(), static_cast<std::ptrdiff_t>(random.below(points_.size())));
     many_.remove(it->first);
     one_.remove(it->first);
     points_.erase(it);
   }
   void move_any(SplitMix64& random, double by) {
     if (points_.empty()) return;
-    const auto it = std::next(points_.begin(), static_cast<std::ptrdiff_t>(random.below(points_.size())));
+    const auto it =
+        std::next(points_.begin(), static_cast<std::ptrdiff_t>(random.below(points_.size())));
     Point<D> to = it->second;
     for (int i = 0; i < D; ++i) {
       to[i] += by * (2 * random.unit() - 1);
@@ -87,8 +92,8 @@ class Pair {
   [[nodiscard]] Point<D> any_place(SplitMix64& random) const {
     Point<D> p;
     for (int i = 0; i < D; ++i) {
-      p[i] = options_.domain.lo[i] +
-             random.unit() * (options_.domain.hi[i] - options_.domain.lo[i]);
+      p[i] =
+          options_.domain.lo[i] + random.unit() * (options_.domain.hi[i] - options_.domain.lo[i]);
     }
     return p;
   }
@@ -175,9 +180,9 @@ TEST_CASE("on several threads every update is that of one, in the plane") {
 TEST_CASE("on several threads every update is that of one, in space") {
   std::uint64_t seed = 100;
   for (const PointKind kind : kFamilies) {
-    for (const int threads : {2, 5}) check_edits<3>(kind, 50, threads, 6, seed++);
+    for (const int threads : {2, 5}) check_edits<3>(kind, 30, threads, 4, seed++);
   }
-  check_edits<3>(PointKind::uniform, 400, 3, 6, seed);
+  check_edits<3>(PointKind::uniform, 300, 3, 4, seed);
 }
 
 TEST_CASE("few points, points on one plane, and more threads than points") {
@@ -304,7 +309,7 @@ TEST_CASE("on several threads the number of vertices is limited as on one") {
   }
 }
 
-TEST_CASE("what a mesher on several threads does not have") {
+TEST_CASE("how many threads there may be, and lines from the first update on") {
   Options<2> options{.domain = {{0, 0}, {1, 1}}, .threads = 2};
   const auto code = [](auto&& run) { return error_of(run).code(); };
   for (const int threads : {0, -1, mesher::kMostThreads + 1}) {
@@ -318,20 +323,49 @@ TEST_CASE("what a mesher on several threads does not have") {
   with_lines.insert_segment(LineId{1}, PointId{1}, PointId{2});
   with_lines.update();
   REQUIRE(with_lines.mesh().edges.size() > 0);
+}
 
-  BoxMesher<2> m(options);
-  m.insert(PointId{1}, {0.25, 0.25});
-  m.insert(PointId{2}, {0.75, 0.25});
-  m.update();
-  const Mesh<2> before = m.mesh();
-  m.insert_segment(LineId{1}, PointId{1}, PointId{2});
-  REQUIRE(code([&] { m.update(); }) == ErrorCode::bad_option);
-  m.limit({.max_measure = 0.01});
-  REQUIRE(code([&] { m.update(); }) == ErrorCode::bad_option);
-  REQUIRE(m.mesh() == before);
-  m.insert(PointId{3}, {0.5, 0.5});
-  m.update();
-  m.check_invariants();
+TEST_CASE("a mesher on several threads goes on with one when more than points come") {
+  const auto points = mesher::generate_points<2>(PointKind::uniform, 60, 12);
+  for (const bool limits : {false, true}) {
+    Options<2> options = options_for<2>(points, 3);
+    BoxMesher<2> m(options);
+    options.threads = 1;
+    BoxMesher<2> one(options);
+    const auto both = [&](auto&& edit) { edit(m), edit(one); };
+    both([&](BoxMesher<2>& some) {
+      for (std::size_t i = 0; i < points.size(); ++i) some.insert(PointId(i + 1), points[i]);
+      some.update();
+    });
+    both([](BoxMesher<2>& some) { static_cast<void>(some.live()); });
+    const Mesh<2> before = m.mesh();
+    const auto announce = [&](BoxMesher<2>& some) {
+      some.remove(PointId{1});
+      some.move(PointId{2}, {0.5, 0.5});
+      some.insert(PointId{100}, {0.25, 0.75});
+      if (limits) {
+        some.limit({.max_measure = 0.004});
+      } else {
+        some.insert_segment(LineId{1}, PointId{2}, PointId{100});
+      }
+    };
+    announce(m);  // stopped, and taken back
+    const RunControl control{.progress = [](const Progress&) { return false; }, .stop = {}};
+    REQUIRE(error_of([&] { m.update(control); }).code() == ErrorCode::cancelled);
+    REQUIRE(m.mesh() == before);
+    m.check_invariants();
+    m.discard_edits();
+    both(announce);
+    const Change<2> change = m.update();
+    REQUIRE(is_same(change, one.update()));
+    REQUIRE(m.mesh() == one.mesh());
+    REQUIRE(m.points() == one.points());
+    m.check_invariants();
+    both([](BoxMesher<2>& some) { some.remove(PointId{3}); });
+    REQUIRE(is_same(m.update(), one.update()));
+    REQUIRE(m.mesh() == one.mesh());
+    m.check_invariants();
+  }
 }
 
 namespace {
