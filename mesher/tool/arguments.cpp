@@ -134,6 +134,13 @@ void set_min_dihedral(const std::string& text, mesher::Options<D>& options) {
   throw Error(ErrorCode::bad_option, "--min-dihedral " + text + ": triangles have no such angles");
 }
 
+int option_threads(const std::string& text) {
+  const std::size_t threads = option_count("--threads", text);
+  if (threads <= std::size_t{mesher::kMostThreads}) return static_cast<int>(threads);
+  throw Error(ErrorCode::bad_option,
+              "--threads " + text + ": must be at most " + std::to_string(mesher::kMostThreads));
+}
+
 template <int D>
 mesher::Options<D> options_of(const MeshArguments& args, const Input<D>& input) {
   require_own_measure<D>(args);
@@ -152,6 +159,7 @@ mesher::Options<D> options_of(const MeshArguments& args, const Input<D>& input) 
   if (!args.max_vertices.empty()) {
     options.max_vertices = option_count("--max-vertices", args.max_vertices);
   }
+  if (!args.threads.empty()) options.threads = option_threads(args.threads);
   require_inside<D>(input, options.domain);
   add_limits(args, options);
   return options;
@@ -317,6 +325,15 @@ void add_mesh_options(CLI::App& command, MeshArguments& args, MeshGoes goes) {
       "In space: remove flat tetrahedra; the tetrahedra that replace them are Delaunay up to\n"
       "rounding ('check --near')");
   command.add_flag("--quiet", args.quiet, "Print nothing but errors");
+}
+
+void add_threads_option(CLI::App& command, MeshArguments& args) {
+  command
+      .add_option(
+          "--threads", args.threads,
+          "For points alone: mesh, and follow the edits, on N threads; the mesh is that of\n"
+          "one. Once anything else comes, one thread does all (default: 1)")
+      ->type_name("N");
 }
 
 double option_number(const std::string& option, const std::string& text) {

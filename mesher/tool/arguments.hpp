@@ -29,6 +29,7 @@ struct MeshArguments {
   std::vector<std::string> domain;  // the lower corner, the upper corner; or nothing
   std::string max_area, max_volume, max_size, sizes;
   std::string max_vertices;
+  std::string threads;  // of `edit` and `view`
   bool region_areas = false;
   bool surface = false, merge = false, no_merge = false;
   bool repair = false;
@@ -56,6 +57,9 @@ enum class MeshGoes { to_files, elsewhere };
 
 /// Adds these and what is to become of the mesh.
 void add_mesh_options(CLI::App& command, MeshArguments& args, MeshGoes goes = MeshGoes::to_files);
+
+/// Adds --threads, for commands whose mesh follows edits.
+void add_threads_option(CLI::App& command, MeshArguments& args);
 
 /// A number from the command line. Throws: Error(bad_option) naming `option`.
 [[nodiscard]] double option_number(const std::string& option, const std::string& text);

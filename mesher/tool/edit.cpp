@@ -183,6 +183,9 @@ void run_edit_in(const EditArguments& args) {
 
 void run_edit(const EditArguments& args) {
   const bool journaled = !args.journal.path.empty();
+  if (args.is_static && !args.threads.empty()) {
+    throw mesher::Error(mesher::ErrorCode::bad_option, "--threads and --static exclude each other");
+  }
   if (args.script.empty() && !journaled) throw CLI::RequiredError("--script or --journal");
   if (!journaled && (args.append || args.journal.sync || !args.journal.limit.empty())) {
     throw mesher::Error(mesher::ErrorCode::bad_option,
@@ -203,6 +206,7 @@ void add_edit(CLI::App& app) {
       "edit",
       "Meshes a file of points and lines, or of a complex in space, and follows its edits.");
   add_mesh_options(*edit, *args);
+  add_threads_option(*edit, *args);
   edit->add_option("--script", args->script, "The edits; may be left out with --journal")
       ->type_name("EDITS");
   edit->add_option("--journal", args->journal.path,

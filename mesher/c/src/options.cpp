@@ -60,6 +60,7 @@ mesher::Options<D> options_of(const lm_options* user) {
   options.max_measure = given.max_measure;
   options.sizes = sizes_of<D>(given.sizes);
   options.max_vertices = given.max_vertices;
+  if (given.threads != 0) options.threads = given.threads;
   options.extent = checked(given.extent, mesher::Extent::box, "options->extent");
   options.algorithm = checked(given.algorithm, mesher::Algorithm::gap_balls, "options->algorithm");
   options.rule = checked(given.rule, mesher::Rule::voronoi_aspect, "options->rule");

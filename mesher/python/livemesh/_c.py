@@ -76,7 +76,7 @@ class Options(Structure):
                 ("max_measure", c_double), ("sizes", c_uint64), ("max_vertices", c_uint64),
                 ("extent", c_int32), ("algorithm", c_int32), ("rule", c_int32),
                 ("region_limits", c_int32), ("no_flat", c_int32),
-                ("reserved", c_int32), ("box_limits_count", c_size_t),
+                ("threads", c_int32), ("box_limits_count", c_size_t),
                 ("box_limits", c_void_p), ("growth", c_double), ("periodic_count", c_size_t),
                 ("periodic", c_void_p)]
 

@@ -231,7 +231,8 @@ class LiveMesh:
     """A mesh that follows edits of its input, at the cost of the change.
 
     bounds: 2 x d, the box in which points may lie, now and later. The other options are those of
-    `mesh`. undo: how many updates can be undone.
+    `mesh`. undo: how many updates can be undone. threads: as long as there are points alone, their
+    mesh is made and updated on so many threads (at most 256); it is that of one.
 
     Edits (`add_...`, `move`, `remove_...`) are announced; `update` makes all of them, or raises,
     and none is made. Points, lines (segments and polylines), polygons, holes and regions have ids,
@@ -257,7 +258,7 @@ class LiveMesh:
                  rho: Optional[float] = None, min_dihedral: Optional[float] = None,
                  max_area: Optional[float] = None, max_volume: Optional[float] = None,
                  size: Any = None, region_limits: bool = True, extent: str = "enclosed",
-                 max_vertices: int = 0, undo: int = 32) -> None:
+                 max_vertices: int = 0, undo: int = 32, threads: int = 1) -> None:
         box = numbers(bounds, "bounds")
         if box.ndim != 2 or box.shape not in ((2, 2), (2, 3)):
             raise ValueError(f"bounds has the shape {box.shape}, not 2 x 2 or 2 x 3")
@@ -266,6 +267,7 @@ class LiveMesh:
         options, sizes = options_of(self.dimension, box[0], box[1], box, min_angle, rho,
                                     min_dihedral, max_area, max_volume, size, region_limits,
                                     max_vertices, extent, "automatic")
+        options.threads = integer(threads, "threads", 1, 256)
         self._sizes: List[Optional[Sizes]] = [sizes]  # callbacks live as long as they may be called
         # For views: the limits of size, everywhere and then in boxes, those announced, and the
         # options of the command line tool.
@@ -275,7 +277,8 @@ class LiveMesh:
             word for name, value in (("--min-angle", min_angle),
                                      ("--rho", None if min_angle else rho),
                                      ("--min-dihedral", min_dihedral),
-                                     ("--max-vertices", max_vertices or None))
+                                     ("--max-vertices", max_vertices or None),
+                                     ("--threads", threads if threads > 1 else None))
             if value is not None for word in (name, repr(value))]
         self._tool_options += ["--region-areas"] if region_limits else []
         self._tool_options += ["--box"] if extent == "box" else []

@@ -58,9 +58,9 @@ class HoleBorder {
 
 /// The simplices of `all` within the border: from the first at it on, through facets that are not
 /// of the border.
-template <int D>
+template <int D, class Store>
 [[nodiscard]] std::vector<std::array<std::uint32_t, D + 1>> simplices_within(
-    const HoleBorder<D>& border, const SimplexStore<D>& all) {
+    const HoleBorder<D>& border, const Store& all) {
   std::vector<std::uint32_t> inside;
   std::vector<bool> seen(all.places());
   const auto at_border = [&](std::uint32_t s) {

@@ -1,10 +1,11 @@
-// The kernel whose simplices have their balls with them. It removes nothing.
+// The kernel whose simplices have their balls with them.
 #include "delaunay/kernel.hpp"
 #include "delaunay/kernel_check_impl.hpp"
 #include "delaunay/kernel_dig_impl.hpp"
 #include "delaunay/kernel_fill_impl.hpp"
 #include "delaunay/kernel_impl.hpp"
 #include "delaunay/kernel_measure_impl.hpp"
+#include "delaunay/kernel_remove_impl.hpp"
 
 namespace mesher::detail {
 

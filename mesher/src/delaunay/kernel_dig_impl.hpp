@@ -35,7 +35,12 @@ bool DelaunayKernel<D, Layout>::ball_holds_exactly(const Ids& c, const Point<D>&
 
 template <int D, class Layout>
 bool DelaunayKernel<D, Layout>::ball_holds(const Ids& c, const Point<D>& p) const {
-  const BallSide side = quick_side(c, p, least_reach_);
+  double reach = least_reach_;
+  if constexpr (kHasBalls) {
+    reach = exact_reach(p);
+    for (const std::uint32_t v : c) reach = std::min(reach, reach_[v]);
+  }
+  const BallSide side = quick_side(c, p, reach);
   if (side == BallSide::inside || side == BallSide::outside) return side == BallSide::inside;
   return ball_holds_exactly(c, p, side == BallSide::tie);
 }

@@ -208,6 +208,8 @@ void DelaunayKernel<D, Layout>::refill(std::uint32_t v, const std::vector<std::u
   if (filling.size() > star.size()) store_.make_room(filling.size() - star.size());
   mark_.resize(store_.places(), 0);
   sides.reserve(sides.size() + (D + 1) * filling.size());
+  made_.clear();
+  made_.reserve(filling.size());
   // Nothing is allocated from here on.
   for (const std::uint32_t s : star) store_.give(s);
   for (const Ids& c : filling) {
@@ -217,6 +219,7 @@ void DelaunayKernel<D, Layout>::refill(std::uint32_t v, const std::vector<std::u
     for (std::uint32_t i = 0; i <= D; ++i) {
       sides.push_back({OrientedFacet<D>(c, i).corners, s << 2 | i});
     }
+    made_.push_back(s);
     last_ = s;
   }
   std::sort(sides.begin(), sides.end(),
@@ -224,6 +227,9 @@ void DelaunayKernel<D, Layout>::refill(std::uint32_t v, const std::vector<std::u
   for (std::size_t k = 0; k + 1 < sides.size(); k += 2) {
     const std::uint32_t one = sides[k].code, other = sides[k + 1].code;
     store_.join(one >> 2, one & 3, other >> 2, other & 3);
+  }
+  if constexpr (kHasBalls) {
+    for (const std::uint32_t s : made_) measure(s);
   }
   vertices_[v].simplex = kNone;
 }

@@ -6,11 +6,14 @@
 
 #include "facade/reentry_guard.hpp"
 #include "facade/state.hpp"
+#include "facade/tiled_state.hpp"
+#include "facade/whole_change.hpp"
 #include "geometry/input_point.hpp"
 #include "live/live_arrays.hpp"
 #include "mesher/predicates.hpp"
 #include "program/meter.hpp"
 #include "program/space_input.hpp"
+#include "rules/mesh_box.hpp"
 #include "text/id_text.hpp"
 
 namespace mesher {
@@ -32,7 +35,7 @@ struct BoxMesher<D>::Impl {
   using State = detail::State<D>;
 
   explicit Impl(const Options<D>& o)
-      : options(o), state(std::make_unique<State>(o)), box(state->box()), pending(box) {
+      : options(o), state(std::make_unique<State>(o)), box(detail::mesh_box(o)), pending(box) {
     predicates::self_test();
   }
 
@@ -51,12 +54,14 @@ struct BoxMesher<D>::Impl {
   void commit_edits() noexcept;
   void discard_edits() noexcept;
   using LastWord = typename State::Accept;
+  [[nodiscard]] detail::PointEdits<D> all_points() const;
+  Change<D> run_anew(const RunControl& control, const LastWord& accept);
   Change<D> run(const RunControl& control, const LastWord& accept);
   Change<D> run_with_slots(const RunControl& control, const Accept& accept);
   Change<D> update(const RunControl& control, const Accept& accept);
 
-  Options<D> options;            // with the limits of the last update
-  std::unique_ptr<State> state;  // of the last update
+  Options<D> options;                          // with the limits of the last update
+  std::unique_ptr<detail::AnyState<D>> state;  // of the last update
   detail::MeshBox<D> box;
   Pending pending;
   detail::StagedLines lines;
@@ -216,15 +221,49 @@ void BoxMesher<D>::Impl::discard_edits() noexcept {
   moved = false;
 }
 
+// The points that there will be, as new ones.
+template <int D>
+detail::PointEdits<D> BoxMesher<D>::Impl::all_points() const {
+  Pending all(box);
+  for (const GraphPoint<D>& p : state->points()) {
+    if (const auto to = place(p.id)) all.set(p.id, {}, to);
+  }
+  for (const auto& edit : pending.sorted()) {
+    if (!edit.was) all.set(edit.id, {}, edit.to);
+  }
+  return all.sorted();
+}
+
+// Everything in one piece: there have been points alone so far.
+template <int D>
+Change<D> BoxMesher<D>::Impl::run_anew(const RunControl& control, const LastWord& accept) {
+  auto fresh = std::make_unique<State>(pending_options());
+  const Mesh<D> before = state->mesh();
+  Change<D> change = fresh->first_run({all_points(), lines, polygons}, control, [&](Change<D>& c) {
+    detail::count_from(before, c);
+    if (accept) accept(c);
+  });
+  state = std::move(fresh);
+  return change;
+}
+
 template <int D>
 Change<D> BoxMesher<D>::Impl::run(const RunControl& control, const LastWord& accept) {
   if (moved) require_apart(pending.sorted());
   if (state->ran()) {
-    return state->propagate({pending.sorted(), lines, polygons, pending_limits.edit(options)},
-                            control, accept);
+    const detail::Edits<D> edits{pending.sorted(), lines, polygons, pending_limits.edit(options)};
+    if (!state->takes(edits)) return run_anew(control, accept);
+    return state->propagate(edits, control, accept);
   }
-  auto fresh = std::make_unique<State>(pending_options());
-  Change<D> change = fresh->first_run({pending.sorted(), lines, polygons}, control, accept);
+  const Options<D> now = pending_options();
+  detail::Edits<D> edits{pending.sorted(), lines, polygons};
+  std::unique_ptr<detail::AnyState<D>> fresh;
+  if (detail::may_be_tiled(now, edits)) {
+    fresh = std::make_unique<detail::TiledState<D>>(now);
+  } else {
+    fresh = std::make_unique<State>(now);
+  }
+  Change<D> change = fresh->first_run(std::move(edits), control, accept);
   state = std::move(fresh);
   return change;
 }

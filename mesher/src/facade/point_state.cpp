@@ -8,6 +8,7 @@
 #include "facade/asking.hpp"
 #include "facade/make_room.hpp"
 #include "facade/point_report.hpp"
+#include "facade/whole_change.hpp"
 #include "program/meter.hpp"
 #include "program/timed_stats.hpp"
 #include "program/world_impl.hpp"
@@ -140,27 +141,6 @@ void PointState<D>::post_all() {
 }
 
 template <int D>
-Change<D> PointState<D>::whole(const Mesh<D>& mesh) const {
-  Change<D> change;
-  change.vertices_added = mesh.vertices;
-  change.kinds_added = mesh.kinds;
-  change.simplices_added.reserve(mesh.simplices.size());
-  for (const auto& s : mesh.simplices) {
-    auto& corners = change.simplices_added.emplace_back();
-    for (std::size_t k = 0; k < s.size(); ++k) corners[k] = mesh.vertices[s[k]];
-  }
-  const auto& at = mesh.vertices;
-  for (const auto& e : mesh.edges) {
-    change.edges_added.push_back({at[e.low], at[e.high], e.feature});
-  }
-  for (const auto& f : mesh.faces) {
-    const auto& [a, b, c] = f.corners;
-    change.faces_added.push_back({{at[a], at[b], at[c]}, f.polygon});
-  }
-  return change;
-}
-
-template <int D>
 Change<D> PointState<D>::first_run(Edits<D> edits, const RunControl& control,
                                    const Accept& accept) {
   ids_.reserve(edits.points.size());
@@ -182,7 +162,7 @@ Change<D> PointState<D>::first_run(Edits<D> edits, const RunControl& control,
   const Mesh<D> mesh = canonical(pool(), live_vertices(), come, parts);
   remember(parts);
   stats_ = timed_stats(*world_, mesh);
-  Change<D> change = whole(mesh);
+  Change<D> change = whole_change(mesh);
   find_angles(come, change);
   change.calls = calls;
   if (accept) accept(change);

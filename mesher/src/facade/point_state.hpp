@@ -16,7 +16,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "facade/edits.hpp"
+#include "facade/any_state.hpp"
 #include "mesh/canonical.hpp"
 #include "mesher/mesher.hpp"
 #include "program/world.hpp"
@@ -24,43 +24,34 @@
 namespace mesher::detail {
 
 template <int D>
-class PointState {
+class PointState : public AnyState<D> {
  public:
-  /// A last word on a change, which may add to it; what it throws takes the update back.
-  using Accept = std::function<void(Change<D>&)>;
+  using typename AnyState<D>::Accept;
+  using typename AnyState<D>::Named;
 
   /// Throws: Error(bad_option).
   explicit PointState(const Options<D>& options);
   PointState(const PointState&) = delete;
   PointState& operator=(const PointState&) = delete;
-  virtual ~PointState();
+  ~PointState() override;
 
-  /// Inserts the features and runs the program. Requires: no run yet; edits insert, and leave
-  /// limits as they are.
-  Change<D> first_run(Edits<D> edits, const RunControl& control, const Accept& accept);
-  /// Makes the edits and propagates them. Requires: a run.
-  /// `accept`: asked when all can still be undone.
-  Change<D> propagate(const Edits<D>& edits, const RunControl& control, const Accept& accept);
+  Change<D> first_run(Edits<D> edits, const RunControl& control, const Accept& accept) override;
+  [[nodiscard]] bool takes(const Edits<D>&) const noexcept override { return true; }
+  Change<D> propagate(const Edits<D>& edits, const RunControl& control,
+                      const Accept& accept) override;
 
-  [[nodiscard]] bool ran() const noexcept { return ran_; }
-  [[nodiscard]] Mesh<D> mesh() const;
-  [[nodiscard]] MeshStats stats() const;
-  [[nodiscard]] const sac::Engine& engine() const noexcept { return *engine_; }
+  [[nodiscard]] bool ran() const noexcept override { return ran_; }
+  [[nodiscard]] Mesh<D> mesh() const override;
+  [[nodiscard]] MeshStats stats() const override;
+  [[nodiscard]] const sac::Engine& engine() const noexcept override { return *engine_; }
   [[nodiscard]] const MeshBox<D>& box() const noexcept { return box_; }
 
-  [[nodiscard]] std::size_t size() const noexcept { return ids_.size(); }
-  /// Where the point is; nothing if it is not there.
-  [[nodiscard]] typename Pending<D>::Place place(PointId id) const;
-  /// The point in the same finest cell as `p`; nothing if there is none.
-  struct Named {
-    PointId id;
-    Point<D> p;
-  };
-  [[nodiscard]] std::optional<Named> obstacle(const Point<D>& p) const;
-  /// Ascending by id.
-  [[nodiscard]] std::vector<GraphPoint<D>> points() const;
+  [[nodiscard]] std::size_t size() const noexcept override { return ids_.size(); }
+  [[nodiscard]] typename Pending<D>::Place place(PointId id) const override;
+  [[nodiscard]] std::optional<Named> obstacle(const Point<D>& p) const override;
+  [[nodiscard]] std::vector<GraphPoint<D>> points() const override;
 
-  void check_invariants() const;
+  void check_invariants() const override;
 
  protected:
   using Simplex = std::array<VertexHandle, D + 1>;
@@ -132,7 +123,6 @@ class PointState {
   void forget() noexcept;
   void require_room(std::size_t vertices) const;
   [[nodiscard]] std::vector<VertexHandle> live_vertices() const;
-  [[nodiscard]] Change<D> whole(const Mesh<D>& mesh) const;
   [[nodiscard]] std::array<Point<D>, D + 1> corners(const Simplex& s) const;
   void report_vertices(const Log& log, Change<D>& change) const;
   void own_simplices(const typename ChangeLog<D>::Star& star, std::vector<Simplex>& all) const;

@@ -23,6 +23,9 @@ class Staged {
   /// As of the last update.
   [[nodiscard]] const std::map<Key, Value>& committed() const noexcept { return committed_; }
 
+  /// Whether something has been announced since.
+  [[nodiscard]] bool has_edits() const noexcept { return !edits_.empty(); }
+
   /// Throws: std::bad_alloc, and then changes nothing.
   void set(const Key& key, Entry to) { edits_.insert_or_assign(key, std::move(to)); }
 

@@ -33,14 +33,15 @@ struct TooMany {};
 
 template <int D>
 auto LiveTriangulation<D>::of(const VertexPool<D>& pool, double good2,
-                              const std::function<void()>& step)
+                              const std::function<void()>& step, Of which)
     -> std::unique_ptr<LiveTriangulation> {
   std::unique_ptr<LiveTriangulation> live(new LiveTriangulation(good2));
-  return live->build(pool, step) ? std::move(live) : nullptr;
+  return live->build(pool, step, which) ? std::move(live) : nullptr;
 }
 
 template <int D>
-bool LiveTriangulation<D>::build(const VertexPool<D>& pool, const std::function<void()>& step) {
+bool LiveTriangulation<D>::build(const VertexPool<D>& pool, const std::function<void()>& step,
+                                 Of which) {
   const std::size_t n = pool.size();
   const std::size_t expected = n + n / 2 + 1024;
   kernel_.reserve(expected);
@@ -48,14 +49,18 @@ bool LiveTriangulation<D>::build(const VertexPool<D>& pool, const std::function<
   around_.reserve(expected);
   number_.reserve(expected);
   std::vector<Point<D>> places;
+  std::vector<VertexHandle> handles;
   places.reserve(n);
+  handles.reserve(n);
   pool.for_each([&](const Vertex<D>& v) {
-    SAC_EXPECTS(v.self == places.size() + 1);
+    if (which == Of::vertices && !v.alive) return;
+    SAC_EXPECTS(which == Of::vertices || v.self == places.size() + 1);
     places.push_back(v.p);
-    kernel_.add_place(v.p);
+    handles.push_back(v.self);
+    while (kernel_.places() < v.self) kernel_.add_place(v.p);
   });
   std::vector<std::uint32_t> order = spatial_order<D>(places);
-  for (std::uint32_t& i : order) ++i;  // a handle
+  for (std::uint32_t& i : order) i = handles[i];
   std::size_t inserted = 0, made = 0;
   const auto watch = [&] {
     step();
@@ -158,6 +163,33 @@ bool LiveTriangulation<D>::insert(const Vertex<D>& v) {
     around_[u].reach2 = std::max(around_[u].reach2, kernel_.simplices().ball(made[k]).outer2);
   }
   return true;
+}
+
+// Those to whom it was nearest are among its neighbours.
+template <int D>
+void LiveTriangulation<D>::remove(const Vertex<D>& v) {
+  SAC_EXPECTS(good2_ == 0 && kernel_.has(v.self));
+  std::vector<VertexHandle> around;
+  for_each_neighbour(v.self, [&](VertexHandle u) { around.push_back(u); });
+  const bool removed = kernel_.remove(v.self);
+  SAC_ENSURES(removed);
+  static_cast<void>(removed);
+  center_ = 0;
+  make_room();
+  around_[v.self] = {};
+  for (const VertexHandle u : around) {
+    if (around_[u].nearest.handle == v.self) find_nearest(u);
+  }
+}
+
+// Of those around u.
+template <int D>
+void LiveTriangulation<D>::find_nearest(VertexHandle u) {
+  Nearest nearest{0, std::numeric_limits<double>::infinity()};
+  for_each_neighbour(u, [&](VertexHandle w) {
+    note_nearer(nearest, w, squared_distance(kernel_.place(u), kernel_.place(w)));
+  });
+  around_[u].nearest = nearest;
 }
 
 // In the plane from one triangle to the next, counterclockwise; ghosts close the ring.
@@ -321,6 +353,10 @@ void LiveTriangulation<D>::for_each_neighbour(VertexHandle v, Visit&& visit) {
 template <int D>
 auto LiveTriangulation<D>::nearest(const Vertex<D>& v) -> Nearest {
   Nearest best = around_[v.self].nearest;
+  if (best.handle != 0 && !kernel_.has(best.handle)) {  // removed, but for rounding not a neighbour
+    find_nearest(v.self);
+    best = around_[v.self].nearest;
+  }
   if (least2_ > 0x1p-38 * best.distance2) return best;
   const double nearly2 = best.distance2 * (1 + 0x1p-40);
   nearly_.assign(1, v.self);

@@ -25,21 +25,31 @@
 
 namespace mesher::detail {
 
+enum class Of : bool { all_records, vertices };
+
 template <int D>
 class LiveTriangulation {
  public:
-  /// Of all records of the pool. `good2`: a simplex with a circumradius, squared, below this times
-  /// its shortest edge, squared, is good. `step()` is called for each vertex.
-  /// Returns: null if that would have far more simplices than vertices.
-  /// Requires: handles are 1 .. pool.size(). Throws: what step() throws, Error(too_many).
+  /// Of all vertices of the pool, or all records: see `Of`. `good2`: a simplex with a circumradius,
+  /// squared, below this times its shortest edge, squared, is good. `step()` is called for each
+  /// vertex. Returns: null if that would have far more simplices than vertices. Requires: handles
+  /// are 1 .. pool.size(). Throws: what step() throws, Error(too_many).
   [[nodiscard]] static std::unique_ptr<LiveTriangulation> of(const VertexPool<D>& pool,
                                                              double good2,
-                                                             const std::function<void()>& step);
+                                                             const std::function<void()>& step,
+                                                             Of which = Of::all_records);
 
   /// Makes a vertex of a record. False, and nothing done, if there is one in its place. Requires:
   /// it has been made since of(), and is none. Cost: as an insertion near the vertex that was asked
   /// about last.
   bool insert(const Vertex<D>& v);
+  /// Whether the record is a vertex here.
+  [[nodiscard]] bool has(const Vertex<D>& v) const noexcept {
+    return v.self <= kernel_.places() && kernel_.has(v.self);
+  }
+  /// Takes a vertex out. Requires: `good2` is 0, and it is not on the hull's corners.
+  /// Cost: that of its neighbours.
+  void remove(const Vertex<D>& v);
 
   /// Whether all simplices around v are surely good, with circumradii surely less than `radius`.
   [[nodiscard]] bool is_settled(const Vertex<D>& v, double radius);
@@ -82,13 +92,14 @@ class LiveTriangulation {
     std::uint32_t is_good : 1 = false;
   };
 
-  bool build(const VertexPool<D>& pool, const std::function<void()>& step);
+  bool build(const VertexPool<D>& pool, const std::function<void()>& step, Of which);
   void make_room();
   void note(std::uint32_t s, const Shape& shape);
   void note_all();
   void note_doomed();
   void note_distance(VertexHandle u, VertexHandle v);
   void note_nearer(Nearest& nearest, VertexHandle u, double distance2) const;
+  void find_nearest(VertexHandle u);
   void look_around(VertexHandle v);
   void read_star(CellOf<D>& cell, const Vertex<D>& v, double radius);
   template <class Visit>
@@ -116,10 +127,13 @@ template <int D>
 requires(D > 3) class LiveTriangulation<D> {
  public:
   [[nodiscard]] static std::unique_ptr<LiveTriangulation> of(const VertexPool<D>&, double,
-                                                             const std::function<void()>&) {
+                                                             const std::function<void()>&,
+                                                             Of = Of::all_records) {
     return nullptr;
   }
   bool insert(const Vertex<D>&) { return false; }
+  [[nodiscard]] bool has(const Vertex<D>&) const noexcept { return false; }
+  void remove(const Vertex<D>&) {}
   [[nodiscard]] bool is_settled(const Vertex<D>&, double) { return false; }
   void read(CellOf<D>&, const Vertex<D>&, double) {}
   void read_as_if(CellOf<D>&, const Vertex<D>&, VertexHandle, double) {}

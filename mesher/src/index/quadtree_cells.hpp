@@ -69,7 +69,20 @@ void Quadtree<D>::spread(NodeIndex n, int level) noexcept {
     }
     b = bucket.next;
   }
+  for (int i = 0; i < kChildren; ++i) raise_above(first + static_cast<NodeIndex>(i));
   for (int i = 0; i < kChildren; ++i) open_if_full(first + static_cast<NodeIndex>(i), level + 1);
+}
+
+// An area is rounded once more in each cell on the way up: it may be larger from the children than
+// from their vertices, and who raises a reach stops where a cell's area covers it.
+template <int D>
+void Quadtree<D>::raise_above(NodeIndex n) noexcept {
+  while (n != 0) {
+    const Area<D> area = nodes_[n].area.in_parent(static_cast<int>(n % kChildren));
+    n = nodes_[n].parent();
+    if (nodes_[n].area.covers(area)) return;
+    nodes_[n].area.include(area);
+  }
 }
 
 // For a cell that keeps its vertices itself. Requires: reserve_splits.

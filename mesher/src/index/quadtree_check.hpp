@@ -45,6 +45,9 @@ typename Quadtree<D>::Below Quadtree<D>::check_below(NodeIndex n, const Cell<D>&
       const NodeIndex child = node.child() + static_cast<NodeIndex>(c);
       SAC_INVARIANT(nodes_[child].parent() == n);
       wanted = wanted || nodes_[child].wanted();
+      if (visible && !node.closed()) {
+        SAC_INVARIANT(node.area.covers(nodes_[child].area.in_parent(c)));
+      }
       below.add(check_below(child, child_cell(cell, c), visible && !node.closed()));
     }
     SAC_INVARIANT(node.wanted() == wanted && (wanted || below.vertices > kMany));

@@ -198,6 +198,7 @@ class Quadtree {
   void give_children(NodeIndex n, int level) noexcept;
   void open_if_full(NodeIndex n, int level) noexcept;
   void spread(NodeIndex n, int level) noexcept;
+  void raise_above(NodeIndex n) noexcept;
   void gather(NodeIndex n) noexcept;
   [[nodiscard]] bool shrink(NodeIndex n) noexcept;
   [[nodiscard]] bool any_child_wanted(NodeIndex n) const noexcept;

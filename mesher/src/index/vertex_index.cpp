@@ -224,6 +224,20 @@ void VertexIndex<sac::Scope, D>::begin_questions() {
 }
 
 template <int D>
+void VertexIndex<sac::Scope, D>::keep_reading(const std::vector<VertexHandle>& touched) {
+  if (live_ == nullptr) return;
+  for (const VertexHandle h : touched) {
+    const Vertex<D>& v = pool_[h];
+    if (v.alive == live_->has(v)) continue;
+    if (!v.alive) {
+      live_->remove(v);
+    } else if (!live_->insert(v)) {
+      fail_coincident(v.p);
+    }
+  }
+}
+
+template <int D>
 void VertexIndex<sac::Scope, D>::join(const Vertex<D>& v) {
   if (reads() && !live_->insert(v)) fail_coincident(v.p);
 }
@@ -414,6 +428,37 @@ CellLoan<D> VertexIndex<sac::Scope, D>::trial(sac::Scope& s, const Point<D>& p, 
 }
 
 template <int D>
+void VertexIndex<sac::Scope, D>::look_across(sac::Scope& s, VertexRef<D> v, double radius,
+                                             std::vector<VertexHandle>& found) {
+  const struct Across {
+    bool& flag;
+    explicit Across(bool& f) : flag(f) { flag = true; }
+    ~Across() { flag = false; }
+  } across(looks_across_);
+  found.clear();
+  const sac::Call& self = s.self();
+  const auto seen = [&](VertexHandle u) { return born_before(pool_[u], self); };
+  if (radius < 0) {
+    const auto n = nearest_around(*v, seen);
+    s.weigh(take_visited());
+    const double reach = std::min(std::sqrt(n.distance2) * (1 + 0x1p-40), whole());
+    record_nearest(s, *v, Reach<D>::around(reach / box_.side), n.handle);
+    if (n.handle != 0) found.push_back(n.handle);
+    return;
+  }
+  const sac::Ref<sac::Call> caller = engine_.handle_of(self);
+  const Observation* last = observers_.find_at(
+      *v, [&](const Observation& o) { return o.kind == kTrial && o.call == caller; });
+  const CellLoan<D> cell = look(*v, radius, last, seen);
+  s.weigh(take_visited());
+  cell->write(codes_);
+  record_cell(s, *v, *cell, packed(radius), kTrial);
+  for (const std::uint32_t u : Cell::neighbours(codes_)) {
+    if (u < Cell::kVirtual) found.push_back(u);
+  }
+}
+
+template <int D>
 double VertexIndex<sac::Scope, D>::nearest2(sac::Scope& s, VertexRef<D> v) {
   const sac::Call& self = s.self();
   const auto seen = [&](VertexHandle u) { return born_before(pool_[u], self); };
@@ -477,6 +522,7 @@ void VertexIndex<sac::Scope, D>::record_cell(sac::Scope& s, Vertex<D>& v, const 
   std::copy(codes_.begin(), codes_.end(), last_cell_->codes());
   if constexpr (D == 3) last_cell_->features_within = 0;
   fill(s, *last_cell_, v, reach);
+  tell(v, *last_cell_, unpacked(radius));
 }
 
 template <int D>
@@ -489,6 +535,7 @@ void VertexIndex<sac::Scope, D>::record_nearest(sac::Scope& s, Vertex<D>& v, Rea
   auto& o = s.observe<NearestSeen>(id_, kNearest);
   o.nearest = nearest;
   fill(s, o, v, reach);
+  tell(v, o, -1);
 }
 
 template <int D>
@@ -503,15 +550,18 @@ void VertexIndex<sac::Scope, D>::record_star(sac::Scope& s, Vertex<D>& v, Reach<
     return;
   }
   const sac::Handle ring = new_ring(v.self);
+  const Observation* star = nullptr;
   try {
     auto& o = s.observe<StarSeen>(id_, kStar);
     o.ring = ring;
     fill(s, o, v, reach);
+    star = &o;
   } catch (...) {
     engine_.arena().release(ring, Ring::bytes(codes_.size()));
     throw;
   }
   if (!engine_.appending()) log_.star_came(v, ring);
+  tell(v, *star, whole());
 }
 
 template <int D>
@@ -526,6 +576,8 @@ sac::Handle VertexIndex<sac::Scope, D>::new_ring(VertexHandle center) {
 template <int D>
 void VertexIndex<sac::Scope, D>::forget(Observation& o) noexcept {
   observers_.unlink(o);
+  if (listener_ != nullptr) [[unlikely]]
+    listener_->forgot(pool_[o.center], o);
   if (o.kind == kTrial && !pool_[o.center].alive) touch(pool_[o.center]);
   if (o.kind == kStar) log_.star_went(pool_[o.center], static_cast<StarSeen&>(o).ring);
 }
@@ -616,7 +668,7 @@ void VertexIndex<sac::Scope, D>::commit() noexcept {
     if (v.alive || v.input) return;
     const bool tried = v.queries != 0;
     set_trial(v, tried);
-    if (tried) return;
+    if (tried || v.held != 0) return;
     tree_.erase(v);
     pool_.release(v);
   });
@@ -644,7 +696,7 @@ template <int D>
 void VertexIndex<sac::Scope, D>::check_vertex(const Vertex<D>& v) const {
   SAC_INVARIANT(tree_.find(v.p) == &v);
   SAC_INVARIANT(v.alive == v.committed && (v.alive || !v.input));
-  SAC_INVARIANT(v.alive ? !v.changed && !v.trial : v.changed || v.queries != 0);
+  SAC_INVARIANT(v.alive ? !v.changed && !v.trial : v.changed || v.queries != 0 || v.held != 0);
   SAC_INVARIANT(v.alive == (v.boundary || v.presence.there()));
   presences_.check_invariants(v.presence);
   if (v.presence.there()) {
@@ -657,7 +709,7 @@ void VertexIndex<sac::Scope, D>::check_vertex(const Vertex<D>& v) const {
     check_observation(v, o);
     return false;
   });
-  SAC_INVARIANT(stars == (v.alive ? 1 : 0));
+  SAC_INVARIANT(stars == (v.alive ? 1 : 0) || (listener_ != nullptr && stars == 0));  // another's
 }
 
 // It is what a search from nothing finds.

@@ -40,6 +40,7 @@
 #include "index/change_log.hpp"
 #include "index/first_stars.hpp"
 #include "index/live_triangulation.hpp"
+#include "index/look_listener.hpp"
 #include "index/observers.hpp"
 #include "index/vertex_search.hpp"
 #include "sac/sac.hpp"
@@ -171,6 +172,14 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
 
   /// In a first run: cells are asked for from here on. All records are, or will be, vertices.
   void begin_questions();
+  /// Of a tile, before the parts of its first run: the cells of these are read from here on.
+  void begin_reading() {
+    live_ = LiveTriangulation<D>::of(
+        pool_, 0, [] {}, Of::vertices);
+  }
+  /// Between the parts: these may have come or gone since.
+  void keep_reading(const std::vector<VertexHandle>& touched);
+  void end_reading() noexcept { live_.reset(); }
   /// Whether the quadtree is searched: in updates.
   [[nodiscard]] static constexpr bool searches() noexcept { return true; }
 
@@ -184,6 +193,19 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   void insert(sac::Scope& s, VertexRef<D> v);
   CellLoan<D> voronoi_cell(sac::Scope& s, VertexRef<D> v, double radius);
   CellLoan<D> trial(sac::Scope& s, const Point<D>& p, VertexRef<D> near, double radius);
+  /// Who would be around v, a record that need not be a vertex, or be nearest to it if `radius` is
+  /// negative, of the vertices born before the running call. (Of others: v may be one.)
+  void look_across(sac::Scope& s, VertexRef<D> v, double radius, std::vector<VertexHandle>& found);
+  /// Who is told of all observations but those of look_across().
+  void set_listener(LookListener<D>* listener) noexcept { listener_ = listener; }
+  /// The record at p, perhaps made for this: it is freed at the end of an update if nobody has made
+  /// it a vertex, or looked from it.
+  [[nodiscard]] VertexRef<D> claim(const Point<D>& p) {
+    Vertex<D>* v = tree_.find(p);
+    if (v == nullptr) v = &add(p);
+    touch(*v);
+    return {v};
+  }
   /// Records that have only been tried.
   [[nodiscard]] std::size_t trials() const noexcept { return trials_; }
   /// In space: who has seen the last cell has asked for features within this of its vertex, but not
@@ -213,6 +235,11 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
 
   /// v's star, as its cell was written down by the call that computed it.
   [[nodiscard]] std::span<const std::uint32_t> ring(const Vertex<D>& v) const;
+
+  /// Who an observation saw.
+  [[nodiscard]] std::span<const std::uint32_t> seen_by(const Observation& o) const noexcept {
+    return observers_.neighbours(o);
+  }
 
   /// Since the last commit: vertices that may have come or gone, and stars that went and came.
   struct Log {
@@ -365,6 +392,10 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
     return static_cast<float>(distance / box_.side * (1 + 0x1p-20));
   }
   void record_nearest(sac::Scope& s, Vertex<D>& v, Reach<D> reach, VertexHandle nearest);
+  void tell(const Vertex<D>& v, const Observation& o, double radius) {
+    if (listener_ != nullptr && !looks_across_) [[unlikely]]
+      listener_->looked(v, o, radius);
+  }
   void record_star(sac::Scope& s, Vertex<D>& v, Reach<D> reach);
   template <class Seen>
   bool begin(Cell& cell, const Vertex<D>& v, double radius, Seen& seen);
@@ -392,6 +423,8 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   std::optional<FirstStars<D>> first_stars_;    // while a first run triangulates
   std::vector<VertexHandle> gone_;              // the neighbours being replaced
   std::size_t trials_ = 0;
+  LookListener<D>* listener_ = nullptr;
+  bool looks_across_ = false;  // while look_across() runs
 };
 
 }  // namespace mesher::detail

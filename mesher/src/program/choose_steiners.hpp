@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "program/lines.hpp"
 #include "program/split_slivers.hpp"
@@ -51,7 +52,35 @@ void ComputeNN::operator()(S& s, VertexRef<D> v, int b) const {
 struct Filled {
   bool inserts = false;  // vertices
   bool waits = false;    // for leaves that are cut
+  bool fails = false;    // a gap ball cannot be filled
 };
+
+/// No vertex that Complete inserts has another nearer to it than this, in clips. (It is inserted
+/// for a length of its bucket or one before, to which it is no nearer than 1 / (gamma rho) clips.)
+inline constexpr double kFarthestIn = 0.125;
+
+/// The vertex at `point`, which fills a gap ball of v. In a tile nothing, if that is not possible:
+/// it may be otherwise when other tiles have said what they have. Nor if others are too near, as
+/// are two versions of one vertex, in two tiles: to refine the mesh down to their distance would
+/// take long.
+template <class S, int D>
+std::optional<VertexRef<D>> fill_at(S& s, World<S, D>& w, CellOf<D>& gaps, const Vertex<D>& v,
+                                    int b, const typename InsertionRule<D>::NewPoint& point) {
+  const auto fill = [&] {
+    const VertexRef<D> x = w.vertices.insert(s, point.p);
+    if (!point.farther || !gaps.cuts(x->p)) w.fail_useless(v, *x);
+    return x;
+  };
+  if (!S::kTraced || w.border == nullptr) return fill();
+  try {
+    const double nearest = kFarthestIn * w.buckets().clip_radius(b);
+    if (point.nearest2 < nearest * nearest) w.fail_useless(v, v);
+    return fill();
+  } catch (const Error& error) {
+    if constexpr (S::kTraced) w.border->fault(s, error);
+    return std::nullopt;
+  }
+}
 
 // While there is a gap ball b = B(x, r) to fill: if x is in the balls of leaves, cut them instead
 // [5.2c]; else add x to the vertices; add Complete(x), with key |xv|
@@ -67,15 +96,37 @@ Filled fill_gaps(S& s, World<S, D>& w, CellOf<D>& gaps, Staying<S, D>& stays, co
     }
     filled.inserts = filled.inserts || outcome == Outcome::yielded;
     if (outcome != Outcome::stands) continue;
-    const VertexRef<D> x = w.vertices.insert(s, point->p);
-    if (!point->farther || !gaps.cuts(x->p)) w.fail_useless(v, *x);
+    const std::optional<VertexRef<D>> x = fill_at(s, w, gaps, v, b, *point);
+    if (!x) {
+      filled.fails = true;
+      return filled;
+    }
     w.require_room(s);
-    gaps.cut(x->self);
+    gaps.cut((*x)->self);
     filled.inserts = true;
-    w.post_complete(s, x, std::max(b + 1, w.buckets().bucket(point->nearest2)));
-    w.post_star(s, x);
+    w.post_complete(s, *x, std::max(b + 1, w.buckets().bucket(point->nearest2)));
+    w.post_star(s, *x);
   }
   return filled;
+}
+
+/// Complete(v, b) where v is another tile's: what that has seen here is looked at again, and what
+/// it has inserted is born.
+template <int D>
+void complete_for_another(sac::Scope& s, World<sac::Scope, D>& w, VertexRef<D> v) {
+  const auto& script = w.border->read_script(s);
+  std::vector<VertexHandle> found;
+  for (const auto& [question, radius] : script.questions) {
+    w.vertices.look_across(s, v, radius, found);
+    w.border->answer(s, question, found);
+  }
+  for (const auto& [birth, count] : script.births) {
+    const VertexRef<D> x = w.vertices.claim(birth.first);
+    w.vertices.insert(s, x);
+    if (birth.second < 0) continue;
+    w.post_complete(s, x, birth.second);
+    w.post_star(s, x);
+  }
 }
 
 // else if w is a Complete event on v: if v encroaches leaves, cut them [5.2b]; in space, add
@@ -83,6 +134,10 @@ Filled fill_gaps(S& s, World<S, D>& w, CellOf<D>& gaps, Staying<S, D>& stays, co
 template <class S, int D>
 void Complete::operator()(S& s, VertexRef<D> v, int b) const {
   auto& w = s.template environment<World<S, D>>();
+  if constexpr (S::kTraced && D <= 3) {
+    if (!w.owns(v->p)) [[unlikely]]
+      return complete_for_another(s, w, v);
+  }
   if (is_settled(s, w, v, b)) return;
   const CellLoan<D> gaps = w.vertices.voronoi_cell(s, v, w.buckets().clip_radius(b));
   Staying<S, D> stays(w, *gaps);
@@ -90,6 +145,7 @@ void Complete::operator()(S& s, VertexRef<D> v, int b) const {
   conform(s, stays, b);
   for (bool grows = true; grows;) {
     const Filled filled = fill_gaps(s, w, *gaps, stays, *v, b);
+    if (filled.fails) return;
     cuts = cuts || filled.waits;
     grows = filled.inserts && conform(s, stays, b);
   }

@@ -2,14 +2,17 @@
 // the vertices, the work queues. World (program/world.hpp) adds the other features of a dimension.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <type_traits>
 #include <vector>
 
+#include "borders/tile_border.hpp"
 #include "geometry/grid.hpp"
 #include "index/features.hpp"
 #include "index/subdivision.hpp"
@@ -55,13 +58,16 @@ struct PointWorld {
   Agenda& steiner;
   Agenda& stars;
   std::size_t most_vertices;
-  std::size_t most_records;      // while an update is under way, of vertices that come and that go
-  const Names* names = nullptr;  // for messages; null: features have none
+  std::size_t most_records;  // while an update is under way, of vertices that come and that go
+  TileBorder<D>* border = nullptr;  // of a tile; null: this is all
+  std::vector<Agenda*> parts;       // of a tile: `steiner` by buckets, from the first on
+  const Names* names = nullptr;     // for messages; null: features have none
   std::conditional_t<S::kTraced, TracedOutput, PlainOutput<D>> plain;
   std::array<std::chrono::steady_clock::time_point, 4> marks{};
 
   template <class Host>
-  PointWorld(const Options<D>& options, const MeshBox<D>& mesh_box, Host& host)
+  PointWorld(const Options<D>& options, const MeshBox<D>& mesh_box, Host& host,
+             TileBorder<D>* tile_border = nullptr)
       : box(mesh_box),
         limits(options, box),
         rule(insertion_rule<D>(options, box, limits)),
@@ -72,7 +78,9 @@ struct PointWorld {
         steiner(host.make_agenda("steiner", kKeyWidths)),
         stars(host.make_agenda("stars", kKeyWidths)),
         most_vertices(options.max_vertices != 0 ? options.max_vertices : ~std::size_t{0}),
-        most_records(most_vertices) {
+        most_records(most_vertices),
+        border(tile_border) {
+    if (border != nullptr) make_parts(host);
     add_boundary();
   }
   PointWorld(const PointWorld&) = delete;
@@ -85,6 +93,21 @@ struct PointWorld {
   void post_nearest_in(S& s, VertexRef<D> v, int b);
   void post_complete(S& s, VertexRef<D> v, int b);
   void post_star(S& s, VertexRef<D> v);
+  /// Where the events of bucket b wait.
+  [[nodiscard]] Agenda& steiner_at(int b) noexcept {
+    if (parts.empty()) return steiner;
+    const std::size_t part = part_of(b);
+    return *parts[part];
+  }
+  /// Which of `parts` has the events of bucket b.
+  [[nodiscard]] std::size_t part_of(int b) const noexcept {
+    const auto at = static_cast<std::size_t>(std::clamp(b, 0, buckets().count() - 1));
+    return at * parts.size() / static_cast<std::size_t>(buckets().count());
+  }
+  /// Whether calls about what is at p are this world's: not if it is another tile's.
+  [[nodiscard]] bool owns(const Point<D>& p) const noexcept {
+    return border == nullptr || border->owns(p);
+  }
   /// From here on vertices' neighbours are asked for. All that are not inserted by ChooseSteiners
   /// have records; in an update that does not matter.
   void begin_questions(S& s);
@@ -110,6 +133,13 @@ struct PointWorld {
     return VertexIndex<sac::PlainScope, D>(box);
   }
   void add_boundary();
+  template <class Host>
+  void make_parts(Host& host) {
+    constexpr int kMost = 128;  // an engine has 255 structures
+    for (int i = 0; i < std::min(kMost, buckets().count()); ++i) {
+      parts.push_back(&host.make_agenda("steiner " + std::to_string(i), kKeyWidths));
+    }
+  }
 };
 
 /// PointWorld with what else there is in a dimension.

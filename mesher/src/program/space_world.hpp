@@ -31,8 +31,9 @@ struct World<S, 3> : PointWorld<S, 3> {
   const SpaceNames* feature_names = nullptr;  // for messages; null: features have none
 
   template <class Host>
-  World(const Options<3>& options, const MeshBox<3>& mesh_box, Host& host)
-      : Base(options, mesh_box, host),
+  World(const Options<3>& options, const MeshBox<3>& mesh_box, Host& host,
+        TileBorder<3>* tile_border = nullptr)
+      : Base(options, mesh_box, host, tile_border),
         plc(box, vertices.pool(), features, host),
         plans(box, limits, host),
         surroundings(box, limits, Obstacles<S, 3>(features, plc.store()), host),

@@ -54,8 +54,9 @@ struct World<S, 2> : PointWorld<S, 2> {
   Agenda& fills;
 
   template <class Host>
-  World(const Options<2>& options, const MeshBox<2>& mesh_box, Host& host)
-      : Base(options, mesh_box, host),
+  World(const Options<2>& options, const MeshBox<2>& mesh_box, Host& host,
+        TileBorder<2>* tile_border = nullptr)
+      : Base(options, mesh_box, host, tile_border),
         segments(box, vertices, features, host),
         leaves(vertices, segments.pool(), host),
         plans(box, limits, host),

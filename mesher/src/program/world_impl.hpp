@@ -27,7 +27,8 @@ void PointWorld<S, D>::add_boundary() {
   box.for_each_boundary_point([&](const Point<D>& p) {
     const VertexRef<D> v = vertices.add_boundary(p);
     const Fixed<D> f = box.fixed(p);
-    steiner.template post_from_outside<complete>(complete_key(buckets(), f, b), v, b);
+    if (!owns(p)) return;
+    steiner_at(b).template post_from_outside<complete>(complete_key(buckets(), f, b), v, b);
     if constexpr (S::kTraced) stars.template post_from_outside<star>(star_key(f), v);
   });
 }
@@ -95,13 +96,17 @@ void PointWorld<S, D>::post_nearest_from(S& s, VertexRef<D> v, double distance) 
 template <class S, int D>
 void PointWorld<S, D>::post_nearest_in(S& s, VertexRef<D> v, int b) {
   if constexpr (!S::kTraced) plain.tick();
-  steiner.template post<compute_nn>(s, nearest_key(box.fixed(v->p), b), v, b);
+  steiner_at(b).template post<compute_nn>(s, nearest_key(box.fixed(v->p), b), v, b);
 }
 
 template <class S, int D>
 void PointWorld<S, D>::post_complete(S& s, VertexRef<D> v, int b) {
-  if constexpr (!S::kTraced) plain.tick();
-  steiner.template post<complete>(s, complete_key(buckets(), box.fixed(v->p), b), v, b);
+  if constexpr (!S::kTraced) {
+    plain.tick();
+  } else if (!owns(v->p)) [[unlikely]] {
+    return border->hand_over(s, v, b);
+  }
+  steiner_at(b).template post<complete>(s, complete_key(buckets(), box.fixed(v->p), b), v, b);
 }
 
 template <class S>
@@ -114,7 +119,9 @@ bool World<S, 2>::post_cuts(S& s, const std::vector<LeafRef>& found, int b) {
 
 template <class S, int D>
 void PointWorld<S, D>::post_star(S& s, VertexRef<D> v) {
-  if constexpr (S::kTraced) stars.template post<star>(s, star_key(box.fixed(v->p)), v);
+  if constexpr (S::kTraced) {
+    if (owns(v->p)) stars.template post<star>(s, star_key(box.fixed(v->p)), v);
+  }
 }
 
 template <class S, int D>

@@ -43,6 +43,9 @@ struct Vertex {
   bool on_segment : 1 = false;    // stands for a place on a segment: VertexSearch::role
   bool feature : 1 = false;       // among the features as an input point
   bool trial : 1 = false;         // has been asked about, but never was a vertex
+  std::uint8_t held : 5 = 0;      // calls of other tiles that are about it; kMostHeld: too many
+
+  static constexpr std::uint8_t kMostHeld = 31;
 
   [[nodiscard]] VertexKind kind() const noexcept {
     if (boundary) return VertexKind::boundary;

@@ -170,10 +170,24 @@ void arrange(const Graph<3>& plc, const Drawn<3>& drawn, Drawing<3>& drawing) {
 }
 
 // What a Mesher says of it.
+void require_complex(const Graph<3>& plc, const Box<3>& domain) {
+  detail::require_complex(places_of(plc), plc.segments, plc.polygons, {.domain = domain},
+                          detail::ids_of(plc.points));
+}
+
+// Most files are fine: that is found in less time than it takes to draw them.
+bool is_sound(const Graph<3>& plc, const Box<3>& domain) {
+  try {
+    require_complex(plc, domain);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 void require_sound(const Graph<3>& plc, const Box<3>& domain) {
   try {
-    detail::require_complex(places_of(plc), plc.segments, plc.polygons, {.domain = domain},
-                            detail::ids_of(plc.points));
+    require_complex(plc, domain);
   } catch (const Error& error) {
     throw Error(
         ErrorCode::too_close,
@@ -189,14 +203,17 @@ Repaired<D> repair_file(GraphFile<D> file, const std::optional<Box<D>>& given) {
   require_attributes(file.graph);
   if (file.graph.points.empty()) return {file, {}, 0, 0};
   const detail::MeshBox<D> box = box_of_points(file, given);
+  [[maybe_unused]] const Box<D> domain =  // in the plane arrange() leaves nothing to be found
+      given ? *given : snapped_domain<D>(places_of(file.graph));
+  if constexpr (D == 3) {
+    if (is_sound(file.graph, domain)) return {std::move(file), {}, tolerance_in(box), 0};
+  }
   Drawing<D> drawing(box, tolerance_in(box));
   const Drawn<D> drawn = detail::draw_points(file.graph.points, drawing);
   arrange(file.graph, drawn, drawing);
   Repaired<D> repaired = detail::redraw(file, drawing, drawn);
   repaired.file.graph.names = file.graph.names;
-  if constexpr (D == 3) {  // in the plane arrange() leaves nothing to be found
-    require_sound(repaired.file.graph, given ? *given : snapped_domain<D>(places_of(file.graph)));
-  }
+  if constexpr (D == 3) require_sound(repaired.file.graph, domain);
   return repaired;
 }
 

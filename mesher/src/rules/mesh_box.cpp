@@ -21,6 +21,10 @@ void check(const Options<D>& options) {
   if (!(options.rho > 1.01) || !(options.rho <= 100)) {
     refuse("rho is " + text::to_text(options.rho) + ", it must be above 1.01 and at most 100");
   }
+  if (options.threads < 1 || options.threads > kMostThreads) {
+    refuse("threads is " + std::to_string(options.threads) + ", it must be from 1 to " +
+           std::to_string(kMostThreads));
+  }
   for (int i = 0; i < D; ++i) {
     const double lo = options.domain.lo[i];
     const double hi = options.domain.hi[i];

@@ -222,6 +222,7 @@ void add_view(CLI::App& app) {
                    "INPUT.journal)")
       ->type_name("FILE");
   add_journal_options(*view, args->journal);
+  add_threads_option(*view, *args);
   view->add_option("--port", args->port,
                    "Where to listen on 127.0.0.1 (default: as the last time, or any free port)")
       ->type_name("PORT");

@@ -154,6 +154,44 @@ TEST_CASE("a search meets every vertex within its radius, in trees of any depth"
   }
 }
 
+TEST_CASE("queries far smaller than the cells above them are found, in whatever order all came") {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    INFO("seed " << seed);
+    SplitMix64 random(seed);
+    const MeshBox<2> box{.lo = {-4, -4}, .side = 8};
+    mesher::detail::VertexPool<2> pool;
+    Quadtree tree(box, pool);
+    std::vector<mesher::detail::Vertex<2>*> all;
+    const auto place = [&] {  // around the origin, at all scales
+      const double r = 4 * std::ldexp(1, -static_cast<int>(random.below(42)));
+      return Point<2>{r * (2 * random.unit() - 1), r * (2 * random.unit() - 1)};
+    };
+    for (int i = 0; i < 400; ++i) {
+      const Point<2> p = place();
+      if (tree.find(p) != nullptr) continue;
+      all.push_back(&pool.create(p));
+      tree.insert(*all.back());
+      auto& v = *all[random.below(all.size())];
+      v.reach.include(random_reach(random, (std::abs(v.p[0]) + std::abs(v.p[1])) / 8));
+      tree.raise_reach(v);
+      const Point<2>& q = all[random.below(all.size())]->p;
+      if (random.below(2) == 0) {
+        tree.mark(MeshBox<2>::cell(box.fixed(q), static_cast<int>(random.below(45))));
+      }
+      std::set<VertexHandle> met, expected;
+      const Point<2> at = place();
+      tree.visit_reaching(at, [&](auto& u, const auto&) { met.insert(u.self); });
+      for (const auto* u : all) {
+        if (u->reach.contains({(at[0] - u->p[0]) / 8, (at[1] - u->p[1]) / 8})) {
+          expected.insert(u->self);
+        }
+      }
+      REQUIRE(met == expected);
+      tree.check_invariants();
+    }
+  }
+}
+
 TEST_CASE("marks taken back leave one cell, and vertices are found all the while") {
   const MeshBox<2> box{.lo = {-1.5, -1.5}, .side = 4};
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {

@@ -1,0 +1,168 @@
+// Points on several threads beside one: first runs, updates, and what the tiles say to each other.
+//
+//   threads_bench [[3d:]FAMILY:N:THREADS]...
+//
+// default: uniform:1000000:2 clusters:300000:2 3d:uniform:100000:2. One JSON line per figure, times
+// in seconds by the clock and of the process:
+//   first_run  with points announced before: of one thread, of several, the ratio; of the latter
+//              the seconds before the tiles begin; calls over those of one, bytes of trace over
+//              those of one
+//   exchanges  rounds and messages of the first run, horizons; vertices of others that tiles see,
+//              over all
+//   updates    microseconds by the clock, of points that move anywhere, one at a time: median and
+//              99th percentile of one and of several threads; a batch of 1000, of both
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <ctime>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench_help.hpp"
+#include "facade/tiled_state.hpp"
+#include "mesher/extra/generate.hpp"
+#include "sample.hpp"
+
+namespace {
+
+using mesher::BoxMesher;
+using mesher::Point;
+using mesher::PointId;
+
+struct Taken {
+  double clock = 0, process = 0;
+};
+template <class Run>
+Taken time_of(Run&& run) {
+  const auto start = std::chrono::steady_clock::now();
+  const double process = bench::seconds_of(run);
+  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), process};
+}
+
+template <int D>
+struct Case {
+  std::string family;
+  std::size_t n;
+  int threads;
+  std::vector<Point<D>> points;
+  mesher::Options<D> options;
+  mesher::SplitMix64 random{3};
+
+  [[nodiscard]] std::string name() const {
+    return "\"family\":\"" + family + "\",\"dimension\":" + std::to_string(D) +
+           ",\"n\":" + std::to_string(n) + ",\"threads\":" + std::to_string(threads);
+  }
+  [[nodiscard]] BoxMesher<D> mesher(int with_threads) const {
+    mesher::Options<D> some = options;
+    some.threads = with_threads;
+    BoxMesher<D> m(some);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      m.insert(PointId{static_cast<std::int64_t>(i)}, points[i]);
+    }
+    return m;
+  }
+  void move_any(BoxMesher<D>& one, BoxMesher<D>& many) {
+    const PointId id{static_cast<std::int64_t>(random.below(points.size()))};
+    Point<D> p;
+    for (int i = 0; i < D; ++i) {
+      p[i] = options.domain.lo[i] + random.unit() * (options.domain.hi[i] - options.domain.lo[i]);
+    }
+    one.move(id, p), many.move(id, p);
+  }
+};
+
+// The tiles by themselves, to read their counts.
+template <int D>
+void print_exchanges(const Case<D>& c) {
+  mesher::Options<D> options = c.options;
+  options.threads = c.threads;
+  mesher::detail::TiledState<D> state(options);
+  mesher::detail::Pending<D> pending(mesher::detail::mesh_box(options));
+  for (std::size_t i = 0; i < c.points.size(); ++i) {
+    pending.set(PointId{static_cast<std::int64_t>(i)}, {}, c.points[i]);
+  }
+  const mesher::detail::StagedLines lines;
+  const mesher::detail::StagedPolygons polygons;
+  static_cast<void>(state.first_run({pending.sorted(), lines, polygons}, {}, {}));
+  std::uint64_t seen = 0;
+  for (std::size_t t = 0; t < state.tiles().size(); ++t) seen += state.tiles()[t].counts().seen;
+  const auto& exchanges = state.tiles().exchanges();
+  std::printf(
+      "{\"bench\":\"threads\",\"figure\":\"exchanges\",%s,\"rounds\":%llu,\"horizons\":%llu,"
+      "\"messages\":%llu,\"seen_over_vertices\":%.4f}\n",
+      c.name().c_str(), static_cast<unsigned long long>(exchanges.rounds),
+      static_cast<unsigned long long>(exchanges.horizons),
+      static_cast<unsigned long long>(exchanges.messages),
+      static_cast<double>(seen) / static_cast<double>(state.stats().vertices));
+}
+
+template <int D>
+void bench_case(Case<D> c) {
+  BoxMesher<D> one = c.mesher(1), many = c.mesher(c.threads);
+  std::uint64_t calls_of_one = 0, calls = 0;
+  const Taken by_one = time_of([&] { calls_of_one = one.update().calls.executed; });
+  const Taken by_many = time_of([&] { calls = many.update().calls.executed; });
+  const mesher::MeshStats s = many.stats(), of_one = one.stats();
+  const double in_tiles = s.seconds_quadtree + s.seconds_steiner + s.seconds_triangulate;
+  std::printf(
+      "{\"bench\":\"threads\",\"figure\":\"first_run\",%s,\"vertices\":%zu,\"one_s\":%.3f,"
+      "\"many_s\":%.3f,\"speedup\":%.2f,\"around_tiles_s\":%.3f,\"one_process_s\":%.3f,"
+      "\"many_process_s\":%.3f,\"calls_over_one\":%.3f,\"bytes_over_one\":%.3f}\n",
+      c.name().c_str(), s.vertices, by_one.clock, by_many.clock, by_one.clock / by_many.clock,
+      by_many.clock - in_tiles, by_one.process, by_many.process,
+      static_cast<double>(calls) / static_cast<double>(calls_of_one),
+      static_cast<double>(s.trace_bytes) / static_cast<double>(of_one.trace_bytes));
+  std::vector<double> us_one, us_many;
+  for (int k = 0; k < 1000; ++k) {
+    c.move_any(one, many);
+    us_one.push_back(1e6 * time_of([&] { one.update(); }).clock);
+    us_many.push_back(1e6 * time_of([&] { many.update(); }).clock);
+  }
+  for (int k = 0; k < 1000; ++k) c.move_any(one, many);
+  const double batch_one = time_of([&] { one.update(); }).clock;
+  const double batch_many = time_of([&] { many.update(); }).clock;
+  std::printf(
+      "{\"bench\":\"threads\",\"figure\":\"updates\",%s,\"one_median_us\":%.1f,"
+      "\"many_median_us\":%.1f,\"one_p99_us\":%.1f,\"many_p99_us\":%.1f,\"one_batch_ms\":%.1f,"
+      "\"many_batch_ms\":%.1f}\n",
+      c.name().c_str(), bench::quantile(us_one, 0.5), bench::quantile(us_many, 0.5),
+      bench::quantile(us_one, 0.99), bench::quantile(us_many, 0.99), 1e3 * batch_one,
+      1e3 * batch_many);
+  print_exchanges(c);
+}
+
+template <int D>
+bool bench_points(const std::string& family, std::size_t n, int threads) {
+  const auto kind = mesher::point_kind(family);
+  if (!kind || n == 0 || threads < 1) return false;
+  Case<D> c{family, n, threads, mesher::generate_points<D>(*kind, n, 1), {}};
+  c.options.domain = mesher::snapped_domain<D>(c.points);
+  bench_case(std::move(c));
+  return true;
+}
+
+bool bench_argument(std::string_view text) {
+  const bool in_space = text.substr(0, 3) == "3d:";
+  if (in_space) text.remove_prefix(3);
+  const std::size_t colon = text.find(':'), second = text.find(':', colon + 1);
+  if (colon == text.npos || second == text.npos) return false;
+  const std::string family(text.substr(0, colon));
+  const std::size_t n = std::strtoull(text.data() + colon + 1, nullptr, 10);
+  const int threads = std::atoi(text.data() + second + 1);
+  return in_space ? bench_points<3>(family, n, threads) : bench_points<2>(family, n, threads);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
+  std::vector<std::string_view> cases(argv + 1, argv + argc);
+  if (cases.empty()) cases = {"uniform:1000000:2", "clusters:300000:2", "3d:uniform:100000:2"};
+  for (const std::string_view text : cases) {
+    if (bench_argument(text)) continue;
+    std::fprintf(stderr, "%s: not [3d:]FAMILY:N:THREADS\n", std::string(text).c_str());
+    return 2;
+  }
+}

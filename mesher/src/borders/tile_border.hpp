@@ -1,0 +1,347 @@
+// What happens across the border of a tile, as a traceable data type:
+//
+//   hand_over(s, v, b)   the running call gives birth to v beyond the territory;     (effect)
+//                        who owns the place completes it in bucket b
+//   answer(s, id, found) the running call has looked, for another tile, who is here  (effect)
+//   fault(s, error)      the running call cannot do what it should                   (effect)
+//
+// and the observations of the tile's own calls that reach beyond the territory. Between runs it is
+// asked what has changed since. While tiles do not agree yet, a call may meet vertices that will
+// not be there in the end; so a fault counts only when they do.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "borders/territory.hpp"
+#include "borders/turn.hpp"
+#include "index/look_listener.hpp"
+#include "mesher/error.hpp"
+#include "sac/sac.hpp"
+
+namespace mesher::detail {
+
+template <int D>
+class TileBorder final : public sac::Structure, public LookListener<D> {
+ public:
+  /// `side`: of the meshing box.
+  TileBorder(sac::Engine& engine, const Territories<D>& all, std::size_t self, double side)
+      : engine_(engine), all_(all), self_(self), side_(side), id_(engine.add_structure(*this)) {}
+  TileBorder(const TileBorder&) = delete;
+  TileBorder& operator=(const TileBorder&) = delete;
+
+  /// The vertices, and the agendas' numbers; any other is one of ChooseSteiners.
+  void attach(const VertexPool<D>& pool, std::uint64_t quadtree, std::uint64_t stars) noexcept {
+    pool_ = &pool;
+    quadtree_ = quadtree;
+    stars_ = stars;
+  }
+  [[nodiscard]] bool owns(const Point<D>& p) const noexcept { return all_.owns(self_, p); }
+  [[nodiscard]] Turn<D> turn_of(const sac::Call& call) const noexcept {
+    const Stage stage = call.work_queue == quadtree_ ? Stage::quadtree
+                        : call.work_queue == stars_  ? Stage::stars
+                                                     : Stage::steiner;
+    Turn<D> turn{stage, sac::Slot::of(call).rank, sac::Slot::of(call).order, {}};
+    if (stage == Stage::steiner) {  // Complete, or ComputeNN, of a vertex in a bucket
+      using Arguments = std::tuple<VertexRef<D>, int>;
+      turn.p = std::get<0>(*static_cast<const Arguments*>(call.function().arguments(call)))->p;
+    }
+    return turn;
+  }
+
+  // --- Complete of other tiles' vertices: what it has to do here
+
+  struct Script {
+    using Questions = std::map<std::uint32_t, double>;  // what is looked at for others: up to where
+    using Births = std::map<std::pair<Point<D>, int>, int>;  // of which vertices, to be completed
+                                                             // in which bucket (or not): by how
+                                                             // many messages
+    Questions questions;
+    Births births;
+    sac::Ref<sac::Call> reader;
+    [[nodiscard]] bool is_empty() const noexcept { return questions.empty() && births.empty(); }
+  };
+  // Edits, which are undone in a roll-back: what that puts back is kept, so it allocates nothing.
+  // They return whether there was anything to do before.
+  bool begin_question(const Turn<D>& turn, std::uint32_t id, double radius) {
+    return edit_script(
+        turn, [=](Script& script, Kept&) { script.questions.emplace(id, radius); },
+        [=](Script& script, Kept&) { script.questions.erase(id); });
+  }
+  bool end_question(const Turn<D>& turn, std::uint32_t id) {
+    return edit_script(
+        turn, [=](Script& script, Kept& kept) { kept.question = script.questions.extract(id); },
+        [](Script& script, Kept& kept) { script.questions.insert(std::move(kept.question)); });
+  }
+  bool begin_birth(const Turn<D>& turn, const Point<D>& p, int bucket) {
+    const std::pair key(p, bucket);
+    return edit_script(
+        turn, [=](Script& script, Kept&) { ++script.births[key]; },
+        [=](Script& script, Kept& kept) { take_birth(script, key, kept); });
+  }
+  bool end_birth(const Turn<D>& turn, const Point<D>& p, int bucket) {
+    const std::pair key(p, bucket);
+    return edit_script(
+        turn, [=](Script& script, Kept& kept) { take_birth(script, key, kept); },
+        [=](Script& script, Kept& kept) {
+          if (kept.birth) {
+            script.births.insert(std::move(kept.birth)).position->second = 1;
+          } else {
+            ++script.births.at(key);
+          }
+        });
+  }
+  [[nodiscard]] bool has_script(const Turn<D>& turn) const {
+    const auto it = scripts_.find(turn);
+    return it != scripts_.end() && !it->second.is_empty();
+  }
+  /// What the running call, Complete of a vertex of another tile, has to do.
+  [[nodiscard]] const Script& read_script(sac::Scope& s) {
+    static constexpr auto kAny = [](const sac::Edge&) { return true; };
+    if (s.recall<sac::Edge>(id_, kScript, kAny) == nullptr) {
+      static_cast<void>(s.observe<sac::Edge>(id_, kScript));
+    }
+    Script& script = scripts_[turn_of(s.self())];
+    script.reader = engine_.handle_of(s.self());
+    return script;
+  }
+  /// Forgets scripts with nothing to do. Requires: no run is under way, and none can be undone.
+  void forget_scripts() noexcept {
+    for (const Turn<D>& turn : edited_) {
+      const auto it = scripts_.find(turn);
+      if (it == scripts_.end() || !it->second.is_empty() || it->second.reader != nullptr) continue;
+      scripts_.erase(it);
+    }
+    edited_.clear();
+  }
+
+  void hand_over(sac::Scope& s, VertexRef<D> v, int bucket) {
+    const auto same = [&](const HandOver& e) { return e.vertex == v->self && e.bucket == bucket; };
+    if (s.recall<HandOver>(id_, kHandOver, same) != nullptr) return;
+    const Birth<D> birth{v->p, bucket, turn_of(s.self())};
+    const auto live = born_.insert(birth);
+    try {
+      make_room(births_, born_.size());
+      auto& edge = s.effect<HandOver>(id_, kHandOver);
+      edge.vertex = v->self;
+      edge.bucket = bucket;
+    } catch (...) {
+      born_.erase(live);
+      throw;
+    }
+    births_.push_back({birth, 1});
+  }
+  void answer(sac::Scope& s, std::uint32_t id, std::span<const VertexHandle> found) {
+    const auto same = [&](const Answer& e) {
+      return e.id == id && std::equal(found.begin(), found.end(), e.found(), e.found() + e.count);
+    };
+    if (s.recall<Answer>(id_, kAnswer, same) != nullptr) return;
+    answers_.try_emplace(id);
+    make_room(answered_, answers_.size());
+    auto& edge = s.effect<Answer>(id_, kAnswer, found.size_bytes());
+    edge.id = id;
+    edge.count = static_cast<std::uint32_t>(found.size());
+    std::copy(found.begin(), found.end(), edge.found());
+    answers_[id] = sac::Arena::ref(edge);
+    answered_.push_back(id);
+  }
+  /// Errors are kept for good: there are few.
+  void fault(sac::Scope& s, const Error& error) {
+    faults_.push_back(error);
+    auto& edge = s.effect<Fault>(id_, kFault);
+    edge.error = static_cast<std::uint32_t>(faults_.size() - 1);
+    live_faults_.emplace(edge.error, turn_of(s.self()));
+  }
+
+  void looked(const Vertex<D>& center, const Observation<D>& o, double radius) override {
+    const Box<D> area = area_of(center, o);
+    if (is_inside(area)) return;
+    Look<D> look{center.p, radius, turn_of(engine_.call(o.call))};
+    make_room(looks_, crossing_.size() + 1);
+    crossing_.emplace(engine_.arena().handle_of(&o), std::pair{look, area});
+    looks_.push_back({look, area, &o, 1});
+  }
+  void forgot(const Vertex<D>& center, const Observation<D>& o) noexcept override {
+    if (crossing_.empty() || is_inside(area_of(center, o))) return;
+    const auto it = crossing_.find(engine_.arena().handle_of(&o));
+    if (it == crossing_.end()) return;
+    looks_.push_back({it->second.first, it->second.second, &o, -1});
+    crossing_.erase(it);
+  }
+
+  // --- What has changed since it was asked last; in the order of events, each with 1 or -1
+
+  struct LookEvent {
+    Look<D> look;
+    Box<D> area;  // beyond which nothing concerns it
+    const Observation<D>* seen;
+    int sign;
+  };
+  struct BirthEvent {
+    Birth<D> birth;
+    int sign;
+  };
+  [[nodiscard]] std::vector<LookEvent> take_looks() { return taken(looks_); }
+  /// Calls visit(look, area) for all looks beyond the territory.
+  template <class Visit>
+  void for_each_look(Visit&& visit) const {
+    for (const auto& [handle, look] : crossing_) visit(look.first, look.second);
+  }
+  /// Calls visit(birth) for all births beyond it.
+  template <class Visit>
+  void for_each_birth(Visit&& visit) const {
+    for (const Birth<D>& birth : born_) visit(birth);
+  }
+  /// Whether the observation of a look is still there.
+  [[nodiscard]] bool is_there(const LookEvent& e) const {
+    const auto it = crossing_.find(engine_.arena().handle_of(e.seen));
+    return it != crossing_.end() && it->second.first == e.look;
+  }
+  [[nodiscard]] std::vector<BirthEvent> take_births() { return taken(births_); }
+  /// The questions whose answers may have changed; some more than once.
+  [[nodiscard]] std::vector<std::uint32_t> take_answered() { return taken(answered_); }
+  /// Who was found; nobody if the question is no more.
+  [[nodiscard]] std::span<const VertexHandle> answer_to(std::uint32_t id) const {
+    const auto it = answers_.find(id);
+    if (it == answers_.end() || it->second == nullptr) return {};
+    const Answer& edge = engine_.arena()[it->second];
+    return {edge.found(), edge.count};
+  }
+  /// The first fault that there is, by turn.
+  [[nodiscard]] std::optional<std::pair<Turn<D>, Error>> first_fault() const {
+    std::optional<std::pair<Turn<D>, std::uint32_t>> first;
+    for (const auto& [error, turn] : live_faults_) {
+      if (!first || std::pair(turn, error) < *first) first = {turn, error};
+    }
+    if (!first) return std::nullopt;
+    return std::pair(first->first, faults_[first->second]);
+  }
+
+  void retract(sac::Call& call, sac::Edge& edge) noexcept override {
+    if (edge.kind == kHandOver) {
+      const auto& e = static_cast<HandOver&>(edge);
+      const Birth<D> birth{(*pool_)[e.vertex].p, e.bucket, turn_of(call)};
+      births_.push_back({birth, -1});
+      born_.erase(born_.find(birth));
+    } else if (edge.kind == kAnswer) {
+      const auto it = answers_.find(static_cast<Answer&>(edge).id);
+      if (it == answers_.end() || it->second != sac::Arena::ref(static_cast<Answer&>(edge))) return;
+      answered_.push_back(it->first);
+      answers_.erase(it);
+    } else if (edge.kind == kScript) {
+      const auto it = scripts_.find(turn_of(call));
+      if (it != scripts_.end() && it->second.reader == engine_.handle_of(call)) {
+        it->second.reader = nullptr;
+      }
+    } else {
+      live_faults_.erase(static_cast<Fault&>(edge).error);
+    }
+  }
+
+ private:
+  static constexpr std::uint8_t kHandOver = 0;
+  static constexpr std::uint8_t kAnswer = 1;
+  static constexpr std::uint8_t kFault = 2;
+  static constexpr std::uint8_t kScript = 3;
+  struct HandOver : sac::Edge {
+    VertexHandle vertex;
+    std::int32_t bucket;
+  };
+  struct Answer : sac::Edge {
+    std::uint32_t id;
+    std::uint32_t count;
+    [[nodiscard]] VertexHandle* found() noexcept {
+      return reinterpret_cast<VertexHandle*>(this + 1);
+    }
+    [[nodiscard]] const VertexHandle* found() const noexcept {
+      return reinterpret_cast<const VertexHandle*>(this + 1);
+    }
+  };
+  struct Fault : sac::Edge {
+    std::uint32_t error;
+  };
+
+  struct Kept {
+    bool is_done = false;
+    typename Script::Questions::node_type question;
+    typename Script::Births::node_type birth;
+  };
+  static void take_birth(Script& script, const std::pair<Point<D>, int>& key, Kept& kept) noexcept {
+    const auto it = script.births.find(key);
+    if (--it->second == 0) kept.birth = script.births.extract(it);
+  }
+  template <class Edit, class Undo>
+  bool edit_script(const Turn<D>& turn, Edit edit, Undo undo) {
+    edited_.push_back(turn);
+    Script& script = scripts_[turn];  // stays where it is until it can no longer be undone
+    const bool was_empty = script.is_empty();
+    engine_.begin_edit();
+    const auto memory = std::make_shared<Kept>();
+    engine_.on_rollback([this, &script, memory, undo] {
+      if (!memory->is_done) return;
+      undo(script, *memory);
+      changed(script);
+    });
+    edit(script, *memory);
+    memory->is_done = true;
+    changed(script);
+    return !was_empty;
+  }
+  void changed(const Script& script) noexcept {
+    if (script.reader != nullptr) engine_.invalidate(engine_.call(script.reader));
+  }
+  // The room stays.
+  template <class Event>
+  static std::vector<Event> taken(std::vector<Event>& events) {
+    std::vector<Event> all = events;
+    events.clear();
+    return all;
+  }
+  // For one event more, and for each of `live` to be taken back, which must not allocate.
+  template <class Event>
+  static void make_room(std::vector<Event>& events, std::size_t live) {
+    const std::size_t needed = events.size() + live + 1;
+    if (events.capacity() < needed) events.reserve(2 * needed);
+  }
+  [[nodiscard]] Box<D> area_of(const Vertex<D>& center, const Observation<D>& o) const noexcept {
+    const Box<D> reach = o.reach.box();
+    const double slack = side_ * 0x1p-46;  // sums are rounded
+    Box<D> area;
+    for (int i = 0; i < D; ++i) {
+      area.lo[i] = center.p[i] + reach.lo[i] * side_ - slack;
+      area.hi[i] = center.p[i] + reach.hi[i] * side_ + slack;
+    }
+    return area;
+  }
+  [[nodiscard]] bool is_inside(const Box<D>& area) const noexcept {
+    return all_.owns(self_, area.lo) && all_.owns(self_, area.hi);
+  }
+
+  sac::Engine& engine_;
+  const Territories<D>& all_;
+  std::size_t self_;
+  double side_;
+  std::uint8_t id_;
+  const VertexPool<D>* pool_ = nullptr;
+  std::uint64_t quadtree_ = 0, stars_ = 0;
+  std::unordered_map<sac::Handle, std::pair<Look<D>, Box<D>>> crossing_;
+  std::vector<LookEvent> looks_;
+  std::multiset<Birth<D>> born_;  // beyond the territory
+  std::vector<BirthEvent> births_;
+  std::unordered_map<std::uint32_t, sac::Ref<Answer>> answers_;
+  std::vector<std::uint32_t> answered_;
+  std::map<Turn<D>, Script> scripts_;
+  std::vector<Turn<D>> edited_;  // since some were forgotten last
+  std::vector<Error> faults_;
+  std::unordered_map<std::uint32_t, Turn<D>> live_faults_;
+};
+
+}  // namespace mesher::detail

@@ -1,0 +1,54 @@
+// What a mesher's updates work on: in one piece, or in tiles.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "facade/edits.hpp"
+#include "geometry/grid.hpp"
+#include "mesher/mesher.hpp"
+#include "sac/engine.hpp"
+
+namespace mesher::detail {
+
+template <int D>
+class AnyState {
+ public:
+  /// A last word on a change, which may add to it; what it throws takes the update back.
+  using Accept = std::function<void(Change<D>&)>;
+
+  virtual ~AnyState() = default;
+
+  /// Inserts the features and runs the program. Requires: no run yet; edits insert, and leave
+  /// limits as they are.
+  virtual Change<D> first_run(Edits<D> edits, const RunControl& control, const Accept& accept) = 0;
+  /// Whether propagate() can make these edits. If not, a first run of all can.
+  [[nodiscard]] virtual bool takes(const Edits<D>& edits) const noexcept = 0;
+  /// Makes the edits and propagates them. Requires: a run; takes(edits).
+  /// `accept`: asked when all can still be undone.
+  virtual Change<D> propagate(const Edits<D>& edits, const RunControl& control,
+                              const Accept& accept) = 0;
+
+  [[nodiscard]] virtual bool ran() const noexcept = 0;
+  [[nodiscard]] virtual Mesh<D> mesh() const = 0;
+  [[nodiscard]] virtual MeshStats stats() const = 0;
+  /// Of the first tile, if there are several.
+  [[nodiscard]] virtual const sac::Engine& engine() const noexcept = 0;
+
+  [[nodiscard]] virtual std::size_t size() const noexcept = 0;
+  /// Where the point is; nothing if it is not there.
+  [[nodiscard]] virtual typename Pending<D>::Place place(PointId id) const = 0;
+  /// The point in the same finest cell as `p`; nothing if there is none.
+  struct Named {
+    PointId id;
+    Point<D> p;
+  };
+  [[nodiscard]] virtual std::optional<Named> obstacle(const Point<D>& p) const = 0;
+  /// Ascending by id.
+  [[nodiscard]] virtual std::vector<GraphPoint<D>> points() const = 0;
+
+  virtual void check_invariants() const = 0;
+};
+
+}  // namespace mesher::detail

@@ -1,0 +1,290 @@
+// Points become edits of tiles, and what tiles have changed becomes a change of the mesh.
+#include "facade/tiled_state.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "facade/whole_change.hpp"
+#include "program/meter.hpp"
+#include "rules/mesh_box.hpp"
+#include "sizes/limits_of.hpp"
+#include "text/id_text.hpp"
+
+namespace mesher::detail {
+
+namespace {
+
+template <int D>
+bool has_slivers(const Options<D>& options) {
+  if constexpr (D == 3) return options.min_dihedral != 0;
+  return false;
+}
+
+}  // namespace
+
+template <int D>
+bool may_be_tiled(const Options<D>& options, const Edits<D>& edits) {
+  return options.threads > 1 && options.rule == Rule::radius_edge && edits.points.size() > 1 &&
+         !edits.lines.has_edits() && !edits.polygons.has_edits() && !options.record_weights &&
+         !has_slivers(options) && !LimitsOf<D>(options, mesh_box(options)).any();
+}
+
+template <int D>
+TiledState<D>::TiledState(const Options<D>& options)
+    : options_(options), box_(mesh_box(options)), features_(box_, points_) {}
+
+// --- Points ----------------------------------------------------------------------------------
+
+template <int D>
+auto TiledState<D>::place(PointId id) const -> typename Pending<D>::Place {
+  const auto it = ids_.find(id);
+  return it == ids_.end() ? typename Pending<D>::Place() : points_[it->second].p;
+}
+
+template <int D>
+auto TiledState<D>::obstacle(const Point<D>& p) const -> std::optional<Named> {
+  const Vertex<D>* v = features_.obstacle(p);
+  return v == nullptr ? std::optional<Named>() : Named{names_[v->self].id, v->p};
+}
+
+template <int D>
+std::vector<GraphPoint<D>> TiledState<D>::points() const {
+  std::vector<GraphPoint<D>> all;
+  all.reserve(ids_.size());
+  for (const auto& [id, h] : ids_) all.push_back({id, points_[h].p});
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  return all;
+}
+
+template <int D>
+VertexHandle TiledState<D>::add_point(PointId id, const Point<D>& p) {
+  Vertex<D>& v = points_.create(p);
+  try {
+    if (v.self >= names_.size()) names_.resize(v.self + std::size_t{1});
+    names_[v.self] = {id, std::nullopt};
+    ids_[id] = v.self;
+  } catch (...) {
+    points_.release(v);
+    throw;
+  }
+  return v.self;
+}
+
+// --- The first run ---------------------------------------------------------------------------
+
+// Tiles of the points that there are.
+template <int D>
+auto TiledState<D>::build(const typename TiledMesher<D>::Ask& ask)
+    -> std::unique_ptr<TiledMesher<D>> {
+  const auto threads = static_cast<std::size_t>(options_.threads);
+  std::vector<Point<D>> places;
+  places.reserve(ids_.size());
+  points_.for_each([&](const Vertex<D>& v) { places.push_back(v.p); });
+  auto tiles = std::make_unique<TiledMesher<D>>(options_, box_, places, threads, threads);
+  TileEdits by_tile(tiles->size());
+  points_.for_each([&](Vertex<D>& v) {
+    v.level = static_cast<std::int16_t>(features_.crowded_level(v));
+    names_[v.self].level = v.level;
+    by_tile[tiles->territories().owner(v.p)].push_back({v.p, std::nullopt, int{v.level}});
+  });
+  tiles->first_run(by_tile, ask);
+  return tiles;
+}
+
+template <int D>
+Change<D> TiledState<D>::first_run(Edits<D> edits, const RunControl& control,
+                                   const Accept& accept) {
+  ids_.reserve(edits.points.size());
+  for (const auto& edit : edits.points) {
+    features_.insert_only(points_[add_point(edit.id, *edit.to)]);
+  }
+  const auto ask = [&, points = ids_.size()](Phase phase, std::uint64_t calls) {
+    const std::uint64_t of = phase == Phase::quadtree ? std::max<std::uint64_t>(points, calls) : 0;
+    return report(control, {phase, calls, of});
+  };
+  tiles_ = build(ask);
+  const Mesh<D> mesh = tiles_->mesh();
+  stats_.vertices = mesh.vertices.size();
+  stats_.simplices = mesh.simplices.size();
+  for (std::size_t i = 0; i < 3; ++i) {
+    double& seconds = i == 0   ? stats_.seconds_quadtree
+                      : i == 1 ? stats_.seconds_steiner
+                               : stats_.seconds_triangulate;
+    seconds = tiles_->seconds()[i];
+  }
+  Change<D> change = whole_change(mesh);
+  change.calls.executed = tiles_->calls();
+  if (accept) accept(change);
+  return change;
+}
+
+// --- Updates ---------------------------------------------------------------------------------
+
+template <int D>
+bool TiledState<D>::takes(const Edits<D>& edits) const noexcept {
+  return !edits.lines.has_edits() && !edits.polygons.has_edits() && !edits.limits;
+}
+
+// Changes the set of points, and says what that is to the tiles.
+template <int D>
+auto TiledState<D>::make(const PointEdits<D>& edits, Moves& moves) -> TileEdits {
+  const auto owner = [&](const Point<D>& p) { return tiles_->territories().owner(p); };
+  std::vector<VertexHandle> changed;
+  const auto note = [&](const Vertex<D>& f) { changed.push_back(f.self); };
+  TileEdits by_tile(tiles_->size());
+  moves.gone.reserve(edits.size());
+  moves.come.reserve(edits.size());
+  const auto make_room = [&] {  // for what may not fail: 3^D points a level
+    constexpr std::size_t kMost = 27 * (kLevels + 1);
+    if (changed.capacity() < changed.size() + kMost) changed.reserve(2 * changed.size() + kMost);
+  };
+  for (const auto& edit : edits) {
+    if (!edit.was) continue;
+    const VertexHandle h = ids_.at(edit.id);
+    by_tile[owner(points_[h].p)].push_back({points_[h].p, names_[h].level, std::nullopt});
+    make_room();
+    features_.erase(points_[h], note);
+    moves.gone.push_back(ids_.extract(edit.id));
+  }
+  for (const auto& edit : edits) {
+    if (!edit.to) continue;
+    const VertexHandle h = add_point(edit.id, *edit.to);
+    try {
+      make_room();
+      features_.insert(points_[h], note);
+    } catch (...) {
+      ids_.erase(edit.id);
+      points_.release(points_[h]);
+      throw;
+    }
+    moves.come.emplace_back(edit.id, h);
+    changed.push_back(h);
+  }
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  moves.levels.reserve(changed.size());
+  for (const VertexHandle h : changed) {
+    const auto has = [h](const auto& node) { return node.mapped() == h; };
+    if (std::any_of(moves.gone.begin(), moves.gone.end(), has)) continue;
+    const Vertex<D>& v = points_[h];
+    if (names_[h].level == v.level) continue;
+    by_tile[owner(v.p)].push_back({v.p, names_[h].level, int{v.level}});
+    moves.levels.emplace_back(h, std::exchange(names_[h].level, int{v.level}));
+  }
+  return by_tile;
+}
+
+template <int D>
+void TiledState<D>::take_back(Moves moves) {
+  for (const auto& [h, level] : moves.levels) names_[h].level = level;
+  for (const auto& [id, h] : moves.come) {
+    features_.erase(points_[h], [](const Vertex<D>&) {});
+    ids_.erase(id);
+    points_.release(points_[h]);
+  }
+  for (auto& node : moves.gone) {
+    features_.insert(points_[node.mapped()], [](const Vertex<D>&) {});
+    ids_.insert(std::move(node));
+  }
+}
+
+template <int D>
+Change<D> TiledState<D>::propagate(const Edits<D>& edits, const RunControl& control,
+                                   const Accept& accept) {
+  SAC_EXPECTS(takes(edits));
+  Moves moves;
+  Change<D> change;
+  const auto ask = [&](Phase phase, std::uint64_t calls) {
+    return report(control, {phase, calls, 0});
+  };
+  const std::uint64_t before = tiles_->calls();
+  try {
+    const TileEdits by_tile = make(edits.points, moves);
+    tiles_->update(by_tile, ask, [&](TileChanges& changes) {
+      change = change_of(changes);
+      change.calls.executed = tiles_->calls() - before;
+      if (accept) accept(change);
+    });
+  } catch (...) {
+    take_back(std::move(moves));
+    if (tiles_->is_broken()) tiles_ = build({});  // the mesh is a function of the points
+    throw;
+  }
+  for (const auto& node : moves.gone) points_.release(points_[node.mapped()]);
+  stats_.vertices += change.vertices_added.size() - change.vertices_removed.size();
+  stats_.simplices += change.simplices_added.size() - change.simplices_removed.size();
+  return change;
+}
+
+// What has come and gone again on the way is left out.
+template <int D>
+Change<D> TiledState<D>::change_of(TileChanges& changes) const {
+  Change<D> change;
+  struct Fate {
+    std::optional<VertexKind> before, now;
+    bool is_known = false;
+  };
+  std::map<Point<D>, Fate> fates;
+  for (const auto& e : changes.vertices) {
+    Fate& fate = fates[e.p];
+    if (!fate.is_known && !e.came) fate.before = e.kind;
+    fate.is_known = true;
+    fate.now = e.came ? std::optional(e.kind) : std::nullopt;
+  }
+  for (const auto& [p, fate] : fates) {
+    if (!fate.before && fate.now) {
+      change.vertices_added.push_back(p);
+      change.kinds_added.push_back(*fate.now);
+    } else if (fate.before && !fate.now) {
+      change.vertices_removed.push_back(p);
+    } else if (fate.before != fate.now) {
+      change.kinds_changed.push_back({p, *fate.before, *fate.now});
+    }
+  }
+  std::sort(changes.simplices_come.begin(), changes.simplices_come.end());
+  std::sort(changes.simplices_gone.begin(), changes.simplices_gone.end());
+  std::set_difference(changes.simplices_come.begin(), changes.simplices_come.end(),
+                      changes.simplices_gone.begin(), changes.simplices_gone.end(),
+                      std::back_inserter(change.simplices_added));
+  std::set_difference(changes.simplices_gone.begin(), changes.simplices_gone.end(),
+                      changes.simplices_come.begin(), changes.simplices_come.end(),
+                      std::back_inserter(change.simplices_removed));
+  return change;
+}
+
+// --- Between updates -------------------------------------------------------------------------
+
+template <int D>
+MeshStats TiledState<D>::stats() const {
+  MeshStats s = stats_;
+  if (tiles_ == nullptr) return s;
+  for (std::size_t t = 0; t < tiles_->size(); ++t) {
+    const auto& tile = (*tiles_)[t];
+    s.calls += tile.engine().live_calls();
+    s.edges += tile.engine().live_edges();
+    s.trace_bytes += tile.bytes();
+  }
+  return s;
+}
+
+template <int D>
+void TiledState<D>::check_invariants() const {
+  features_.check_invariants();
+  tiles_->check_invariants();
+  for (const auto& [id, h] : ids_) {
+    SAC_INVARIANT(names_[h].id == id && names_[h].level == points_[h].level);
+  }
+  SAC_INVARIANT(stats_.vertices == tiles_->vertices());
+  std::size_t simplices = 0;
+  for (std::size_t t = 0; t < tiles_->size(); ++t) simplices += (*tiles_)[t].own_simplices();
+  SAC_INVARIANT(stats_.simplices == simplices);
+}
+
+template bool may_be_tiled(const Options<2>&, const Edits<2>&);
+template class TiledState<2>;
+#ifndef MESHER_PLANE_ONLY
+template bool may_be_tiled(const Options<3>&, const Edits<3>&);
+template class TiledState<3>;
+#endif
+
+}  // namespace mesher::detail

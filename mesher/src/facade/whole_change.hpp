@@ -1,0 +1,69 @@
+// Changes that are made of whole meshes.
+#pragma once
+
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
+#include "mesher/mesher.hpp"
+
+namespace mesher::detail {
+
+/// All of a mesh is new.
+template <int D>
+[[nodiscard]] Change<D> whole_change(const Mesh<D>& mesh) {
+  Change<D> change;
+  change.vertices_added = mesh.vertices;
+  change.kinds_added = mesh.kinds;
+  change.simplices_added.reserve(mesh.simplices.size());
+  for (const auto& s : mesh.simplices) {
+    auto& corners = change.simplices_added.emplace_back();
+    for (std::size_t k = 0; k < s.size(); ++k) corners[k] = mesh.vertices[s[k]];
+  }
+  const auto& at = mesh.vertices;
+  for (const auto& e : mesh.edges) {
+    change.edges_added.push_back({at[e.low], at[e.high], e.feature});
+  }
+  for (const auto& f : mesh.faces) {
+    const auto& [a, b, c] = f.corners;
+    change.faces_added.push_back({{at[a], at[b], at[c]}, f.polygon});
+  }
+  return change;
+}
+
+/// Makes of the change from nothing to a mesh that from `before`, which has no edges and faces on
+/// features. Cost: O(the size of both).
+template <int D>
+void count_from(const Mesh<D>& before, Change<D>& change) {
+  const Change<D> was = whole_change(before);
+  const std::vector<Point<D>> vertices = std::move(change.vertices_added);
+  const std::vector<VertexKind> kinds = std::move(change.kinds_added);
+  change.vertices_added.clear();
+  change.kinds_added.clear();
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    for (; k < was.vertices_added.size() && was.vertices_added[k] < vertices[i]; ++k) {
+      change.vertices_removed.push_back(was.vertices_added[k]);
+    }
+    if (k == was.vertices_added.size() || vertices[i] < was.vertices_added[k]) {
+      change.vertices_added.push_back(vertices[i]);
+      change.kinds_added.push_back(kinds[i]);
+      continue;
+    }
+    if (was.kinds_added[k] != kinds[i]) {
+      change.kinds_changed.push_back({vertices[i], was.kinds_added[k], kinds[i]});
+    }
+    ++k;
+  }
+  for (; k < was.vertices_added.size(); ++k) {
+    change.vertices_removed.push_back(was.vertices_added[k]);
+  }
+  const auto simplices = std::move(change.simplices_added);
+  change.simplices_added.clear();
+  std::set_difference(simplices.begin(), simplices.end(), was.simplices_added.begin(),
+                      was.simplices_added.end(), std::back_inserter(change.simplices_added));
+  std::set_difference(was.simplices_added.begin(), was.simplices_added.end(), simplices.begin(),
+                      simplices.end(), std::back_inserter(change.simplices_removed));
+}
+
+}  // namespace mesher::detail

@@ -1,0 +1,454 @@
+// A tile's runs, and what it tells others.
+#include "tiles/tile_mesher.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "mesh/canonical.hpp"
+#include "program/world_impl.hpp"
+#include "tiles/tile_calls.hpp"
+
+namespace mesher::detail {
+
+template <int D>
+TileMesher<D>::TileMesher(const Options<D>& options, const MeshBox<D>& box,
+                          const Territories<D>& all, std::size_t self)
+    : all_(all),
+      self_(self),
+      engine_(std::make_unique<sac::Engine>()),
+      border_(std::make_unique<TileBorder<D>>(*engine_, all, self, box.side)),
+      world_(std::make_unique<World<sac::Scope, D>>(options, box, *engine_, border_.get())),
+      asked_(all.size()),
+      askers_(all.size()) {
+  border_->attach(world_->vertices.pool(), world_->quadtree.number(), world_->stars.number());
+  world_->vertices.set_listener(border_.get());
+  world_->most_records = ~std::size_t{0};  // all tiles together have a limit
+  world_->vertices.pool().for_each(
+      [&](const Vertex<D>& v) { own_vertices_ += border_->owns(v.p); });
+}
+
+template <int D>
+TileMesher<D>::~TileMesher() {
+  engine_.reset();  // before what its calls refer to
+}
+
+// --- Edits and messages ----------------------------------------------------------------------
+
+template <int D>
+sac::Agenda& TileMesher<D>::agenda(const Turn<D>& turn) noexcept {
+  if (turn.stage == Stage::quadtree) return world_->quadtree;
+  if (turn.stage == Stage::stars) return world_->stars;
+  return world_->steiner_at(turn.key(kKeyWidths).bucket);
+}
+
+template <int D>
+void TileMesher<D>::edit(const std::vector<Edit>& edits) {
+  const auto order = [&](const Point<D>& p, int level, bool begins) {
+    orders_.push_back({Order::Kind::locate, begins, p, {}, level, 0, 0});
+  };
+  for (const Edit& e : edits) {
+    if (e.was) order(e.p, *e.was, false);
+    if (e.is) order(e.p, *e.is, true);
+  }
+}
+
+template <int D>
+void TileMesher<D>::receive(std::size_t from, const std::vector<Message<D>>& messages) {
+  using Kind = typename Message<D>::Kind;
+  const auto who = static_cast<std::uint32_t>(from);
+  for (const Message<D>& m : messages) {
+    if (m.to != self_) continue;
+    switch (m.kind) {
+      case Kind::ask:
+        ask(who, m.look);
+        break;
+      case Kind::end:
+        end(who, m.look);
+        break;
+      case Kind::arrive:
+        arrived(who, m.birth);
+        break;
+      case Kind::depart:
+        departed(who, m.birth);
+        break;
+    }
+  }
+}
+
+template <int D>
+void TileMesher<D>::ask(std::uint32_t from, const Look<D>& look) {
+  ++counts_.questions;
+  const std::uint32_t id = next_question_++;
+  questions_.emplace(id, Question{from, look});
+  askers_[from].questions.emplace(look, id);
+  orders_.push_back({Order::Kind::ask, true, look.p, look.turn, 0, id, look.radius});
+}
+
+template <int D>
+void TileMesher<D>::end(std::uint32_t from, const Look<D>& look) {
+  const auto it = askers_[from].questions.find(look);
+  SAC_ENSURES(it != askers_[from].questions.end());
+  orders_.push_back({Order::Kind::ask, false, look.p, look.turn, 0, it->second, look.radius});
+  askers_[from].questions.erase(it);  // the question is kept until its answer has gone
+}
+
+template <int D>
+void TileMesher<D>::arrived(std::uint32_t from, const Birth<D>& birth) {
+  ++(birth.bucket < 0 ? counts_.seen : counts_.born);
+  from_.emplace(birth.p, From{birth.turn, from});
+  orders_.push_back({Order::Kind::arrive, true, birth.p, birth.turn, birth.bucket, from, 0});
+}
+
+template <int D>
+void TileMesher<D>::departed(std::uint32_t from, const Birth<D>& birth) {
+  const auto [first, last] = from_.equal_range(birth.p);
+  const auto it = std::find_if(first, last, [&](const auto& f) {
+    return f.second.turn == birth.turn && f.second.tile == from;
+  });
+  SAC_ENSURES(it != last);
+  from_.erase(it);
+  orders_.push_back({Order::Kind::arrive, false, birth.p, birth.turn, birth.bucket, from, 0});
+}
+
+template <int D>
+void TileMesher<D>::locate(const Order& order, VertexRef<D> v) {
+  Vertex<D>* const record = v.v;
+  engine_->begin_edit();
+  engine_->on_rollback([record, was = bool{v->input}] { record->input = was; });
+  v->input = order.begins;
+  if (order.begins) {
+    world_->quadtree.template post_from_outside<locate_known>(locate_key(world_->box.fixed(v->p)),
+                                                              v, order.number);
+  } else {
+    world_->quadtree.template retract_from_outside<locate_known>(v, order.number);
+  }
+}
+
+template <int D>
+void TileMesher<D>::carry_out(const Order& order) {
+  const VertexRef<D> v = world_->vertices.claim(order.p);
+  if (order.kind == Order::Kind::locate) return locate(order, v);
+  const Turn<D>& t = order.turn;
+  const sac::Key key = t.key(kKeyWidths);
+  if (t.stage == Stage::steiner && key.phase == 1) return carry_out_in_complete(order, key.bucket);
+  sac::Agenda& at = agenda(t);
+  const auto stage = static_cast<std::uint32_t>(t.stage);
+  if (order.kind == Order::Kind::ask) {
+    order.begins ? at.template post_from_outside<across>(key, v, order.radius, order.name)
+                 : at.template retract_from_outside<across>(v, order.radius, order.name);
+  } else {
+    order.begins ? at.template post_from_outside<arrive>(key, v, order.number, stage, t.rank,
+                                                         t.order, order.name)
+                 : at.template retract_from_outside<arrive>(v, order.number, stage, t.rank, t.order,
+                                                            order.name);
+  }
+}
+
+// Calls of one key run in the order of their vertices' places, so what is Complete elsewhere is
+// Complete here.
+template <int D>
+void TileMesher<D>::carry_out_in_complete(const Order& order, int bucket) {
+  const auto edit = [&] {
+    const Turn<D>& turn = order.turn;
+    if (order.kind == Order::Kind::ask) {
+      return order.begins ? border_->begin_question(turn, order.name, order.radius)
+                          : border_->end_question(turn, order.name);
+    }
+    return order.begins ? border_->begin_birth(turn, order.p, order.number)
+                        : border_->end_birth(turn, order.p, order.number);
+  };
+  const bool was_there = edit();
+  const bool is_there = border_->has_script(order.turn);
+  if (was_there == is_there) return;
+  const VertexRef<D> v = world_->vertices.claim(order.turn.p);
+  Vertex<D>* const record = v.v;
+  if (v->held != Vertex<D>::kMostHeld) {
+    engine_->on_rollback([record, was = std::uint8_t{v->held}] { record->held = was & 31; });
+    v->held = static_cast<std::uint8_t>(v->held + (is_there ? 1 : -1)) & 31;
+  }
+  sac::Agenda& at = agenda(order.turn);
+  if (is_there) {
+    at.template post_from_outside<complete>(order.turn.key(kKeyWidths), v, bucket);
+  } else {
+    at.template retract_from_outside<complete>(v, bucket);
+  }
+}
+
+template <int D>
+void TileMesher<D>::post_orders() {
+  engine_->edit_together([&] {
+    for (const Order& order : orders_) carry_out(order);
+  });
+}
+
+template <int D>
+void TileMesher<D>::watch(std::function<bool(std::uint64_t)> report) {
+  constexpr std::uint64_t kEvery = RunControl::kCallsBetween;
+  engine_->set_progress(
+      [report = std::move(report)](const sac::Progress&) { return report(kEvery); }, kEvery);
+}
+
+// --- Runs ------------------------------------------------------------------------------------
+
+template <int D>
+void TileMesher<D>::run_quadtree() {
+  post_orders();
+  orders_.clear();
+  counts_.run += engine_->template run<detail::run_quadtree<D>>().executed;
+}
+
+template <int D>
+void TileMesher<D>::begin_questions() {
+  world_->vertices.begin_reading();
+}
+
+template <int D>
+void TileMesher<D>::run_part(int part) {
+  counts_.run += engine_->template run<detail::run_part<D>>(part).executed;
+}
+
+template <int D>
+void TileMesher<D>::run_stars() {
+  counts_.run += engine_->template run<detail::run_stars<D>>().executed;
+  world_->vertices.end_reading();
+}
+
+template <int D>
+int TileMesher<D>::next_part(int part) const noexcept {
+  while (part < parts() && world_->parts[static_cast<std::size_t>(part)]->waiting_calls() == 0) {
+    ++part;
+  }
+  return part;
+}
+
+template <int D>
+void TileMesher<D>::propagate() {
+  post_orders();
+  counts_.again += engine_->propagate().executed;
+  orders_.clear();
+}
+
+// --- What is new -----------------------------------------------------------------------------
+
+template <int D>
+std::vector<Message<D>> TileMesher<D>::collect(Changes* changes) {
+  std::vector<Message<D>> out;
+  const auto log = world_->vertices.log();
+  Doubtful doubtful(askers_.size());
+  for (const VertexHandle h : log.touched) {
+    for (std::size_t t = 0; t < askers_.size(); ++t) {
+      if (askers_[t].told.count(h) != 0) doubtful[t].push_back(h);
+    }
+  }
+  collect_looks(out, doubtful);
+  collect_births(out);
+  collect_answers(doubtful);
+  tell(doubtful, out);
+  if (changes != nullptr) collect_changes(*changes);
+  count_own(log.touched);
+  world_->vertices.keep_reading(log.touched);
+  world_->vertices.commit();
+  border_->forget_scripts();
+  return out;
+}
+
+// Who is found for a tile, or bounds what it is asked for.
+template <int D>
+void TileMesher<D>::note(std::size_t tile, VertexHandle h, Doubtful& doubtful) {
+  const Vertex<D>& v = world_->vertices.pool()[h];
+  if (v.boundary || !border_->owns(v.p)) return;
+  if (askers_[tile].told.try_emplace(h).second) doubtful[tile].push_back(h);
+}
+
+// Looks that came and went, or went and came, are as they were. Who is asked is told, too, whom the
+// look has seen here: it need not look behind these.
+template <int D>
+void TileMesher<D>::collect_looks(std::vector<Message<D>>& out, Doubtful& doubtful) {
+  using Kind = typename Message<D>::Kind;
+  std::map<std::pair<std::uint32_t, Look<D>>, int> changed;
+  for (const auto& e : border_->take_looks()) {
+    const bool is_new = e.sign > 0 && border_->is_there(e);
+    all_.for_each_met(e.area, [&](std::size_t tile) {
+      if (tile == self_) return;
+      changed[{static_cast<std::uint32_t>(tile), e.look}] += e.sign;
+      if (!is_new) return;
+      for (const std::uint32_t h : world_->vertices.seen_by(*e.seen)) {
+        if (h != 0 && h < CellOf<D>::kVirtual) note(tile, h, doubtful);
+      }
+    });
+  }
+  for (const auto& [where, sum] : changed) {
+    const auto& [to, look] = where;
+    if (sum == 0) continue;
+    auto& looks = asked_[to].looks;
+    std::uint32_t& count = looks[look];
+    const bool was = count != 0;
+    count = static_cast<std::uint32_t>(static_cast<int>(count) + sum);
+    const bool is = count != 0;
+    if (!is) looks.erase(look);
+    if (was != is) out.push_back({is ? Kind::ask : Kind::end, to, look, {}});
+  }
+}
+
+template <int D>
+void TileMesher<D>::collect_births(std::vector<Message<D>>& out) {
+  using Kind = typename Message<D>::Kind;
+  std::map<Birth<D>, int> changed;
+  for (const auto& e : border_->take_births()) changed[e.birth] += e.sign;
+  for (const auto& [birth, sum] : changed) {
+    if (sum == 0) continue;
+    const auto to = static_cast<std::uint32_t>(all_.owner(birth.p));
+    out.push_back({sum > 0 ? Kind::arrive : Kind::depart, to, {}, birth});
+  }
+}
+
+// When v was born, unless that was in the asking tile, which knows.
+template <int D>
+std::optional<Turn<D>> TileMesher<D>::birth_for(std::uint32_t asker, const Vertex<D>& v) const {
+  if (!v.alive || v.boundary) return std::nullopt;
+  const Turn<D> turn = border_->turn_of(engine_->call_at(v.presence.birth()));
+  const auto [first, last] = from_.equal_range(v.p);
+  const bool known = std::any_of(
+      first, last, [&](const auto& f) { return f.second.tile == asker && f.second.turn == turn; });
+  return known ? std::nullopt : std::optional(turn);
+}
+
+template <int D>
+void TileMesher<D>::collect_answers(Doubtful& doubtful) {
+  for (const std::uint32_t id : border_->take_answered()) {
+    const auto it = questions_.find(id);
+    if (it == questions_.end()) continue;  // looked at already, and gone
+    const Question& q = it->second;
+    for (const VertexHandle h : border_->answer_to(id)) note(q.from, h, doubtful);
+    const auto still = askers_[q.from].questions.find(q.look);
+    const bool is_asked = still != askers_[q.from].questions.end() && still->second == id;
+    if (!is_asked) questions_.erase(it);
+  }
+}
+
+template <int D>
+void TileMesher<D>::tell(Doubtful& doubtful, std::vector<Message<D>>& out) {
+  using Kind = typename Message<D>::Kind;
+  const auto& pool = world_->vertices.pool();
+  for (std::size_t t = 0; t < askers_.size(); ++t) {
+    auto& some = doubtful[t];
+    std::sort(some.begin(), some.end(),
+              [&](VertexHandle a, VertexHandle b) { return pool[a].p < pool[b].p; });
+    some.erase(std::unique(some.begin(), some.end()), some.end());
+    for (const VertexHandle h : some) {
+      std::optional<Turn<D>>& told = askers_[t].told[h];
+      const auto to = static_cast<std::uint32_t>(t);
+      const std::optional<Turn<D>> turn = birth_for(to, pool[h]);
+      if (turn != told) {
+        if (told) out.push_back({Kind::depart, to, {}, {pool[h].p, -1, *told}});
+        if (turn) out.push_back({Kind::arrive, to, {}, {pool[h].p, -1, *turn}});
+        told = turn;
+      }
+      if (!pool[h].alive) askers_[t].told.erase(h);
+    }
+  }
+}
+
+template <int D>
+void TileMesher<D>::count_own(const std::vector<VertexHandle>& touched) noexcept {
+  for (const VertexHandle h : touched) {
+    const Vertex<D>& v = world_->vertices.pool()[h];
+    if (v.alive == v.committed || !border_->owns(v.p)) continue;
+    v.alive ? ++own_vertices_ : --own_vertices_;
+  }
+}
+
+template <int D>
+std::size_t TileMesher<D>::own_simplices() const {
+  std::size_t count = 0;
+  const auto& pool = world_->vertices.pool();
+  pool.for_each([&](const Vertex<D>& v) {
+    if (!v.alive || !border_->owns(v.p)) return;
+    for_each_own_simplex(pool, v, world_->vertices.ring(v), [&](const auto&) { ++count; });
+  });
+  return count;
+}
+
+template <int D>
+void TileMesher<D>::collect_changes(Changes& changes) const {
+  const auto& pool = world_->vertices.pool();
+  const auto log = world_->vertices.log();
+  for (const VertexHandle h : log.touched) {
+    const Vertex<D>& v = pool[h];
+    if (!border_->owns(v.p)) continue;
+    const bool same = v.alive == v.committed && v.kind() == v.committed_kind;
+    if (same) continue;
+    if (v.committed) changes.vertices.push_back({v.p, v.committed_kind, false});
+    if (v.alive) changes.vertices.push_back({v.p, v.kind(), true});
+  }
+  const auto add = [&](const auto& stars, auto& simplices) {
+    for (const auto& star : stars) {
+      for_each_own_simplex(pool, pool[star.center], star.ring, [&](const auto& t) {
+        auto& places = simplices.emplace_back();
+        for (std::size_t k = 0; k < t.size(); ++k) places[k] = pool[t[k]].p;
+        places = smallest_first(places);
+      });
+    }
+  };
+  add(log.stars_gone, changes.simplices_gone);
+  add(log.stars_come, changes.simplices_come);
+}
+
+// --- Between runs ----------------------------------------------------------------------------
+
+template <int D>
+bool TileMesher<D>::has_arrived(std::size_t from, const Point<D>& p, const Turn<D>& turn) const {
+  const auto [first, last] = from_.equal_range(p);
+  return std::any_of(first, last,
+                     [&](const auto& f) { return f.second.tile == from && f.second.turn == turn; });
+}
+
+template <int D>
+std::string TileMesher<D>::fault_with(const TileMesher& other) const {
+  const auto& pool = other.world_->vertices.pool();
+  const Asker& asker = other.askers_[self_];
+  std::string fault;
+  border_->for_each_look([&](const Look<D>& look, const Box<D>& area) {
+    bool meets = false;
+    all_.for_each_met(area, [&](std::size_t tile) { meets = meets || tile == other.self_; });
+    if (!meets) return;
+    const auto it = asker.questions.find(look);
+    if (it == asker.questions.end()) {
+      fault = "a look of tile " + std::to_string(self_) + " is not asked";
+      return;
+    }
+    for (const VertexHandle h : other.border_->answer_to(it->second)) {
+      if (pool[h].boundary || !other.border_->owns(pool[h].p)) continue;
+      const auto turn = other.birth_for(static_cast<std::uint32_t>(self_), pool[h]);
+      if (turn && !has_arrived(other.self_, pool[h].p, *turn)) {
+        fault = "a vertex of tile " + std::to_string(other.self_) + " is not known to tile " +
+                std::to_string(self_);
+      }
+    }
+  });
+  border_->for_each_birth([&](const Birth<D>& birth) {
+    if (all_.owner(birth.p) == other.self_ && !other.has_arrived(self_, birth.p, birth.turn)) {
+      fault = "a vertex that tile " + std::to_string(self_) + " has made has not arrived";
+    }
+  });
+  return fault;
+}
+
+template <int D>
+std::size_t TileMesher<D>::bytes() const {
+  const auto& vertices = world_->vertices;
+  return engine_->bytes() + vertices.pool().bytes() + vertices.tree().bytes();
+}
+
+template <int D>
+void TileMesher<D>::check_invariants() const {
+  engine_->check_invariants();
+  world_->vertices.check_invariants();
+}
+
+template class TileMesher<2>;
+#ifndef MESHER_PLANE_ONLY
+template class TileMesher<3>;
+#endif
+
+}  // namespace mesher::detail

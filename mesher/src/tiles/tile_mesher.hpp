@@ -1,0 +1,187 @@
+// A tile: a mesher that runs the calls of its territory alone.
+//
+// What it must know of others comes as calls posted from outside, at the turns of theirs: births
+// that it sees (arrive), and questions about what is here (across). What has changed for others it
+// tells between runs, as messages. Where a neighbour's birth changes, that is an edit of the calls
+// posted for it, and change propagation does the rest. When there are no messages left, each call
+// has seen what it would have seen in one mesher for all, by induction over the turns:
+//   a call that looks beyond the territory asks each tile whose territory it reaches who of its
+//   vertices would be around it there, at its turn. Whoever bounds its cell among all vertices
+//   bounds that among fewer, too; so all that matter to it arrive.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "borders/tile_border.hpp"
+#include "borders/turn.hpp"
+#include "program/world.hpp"
+
+namespace mesher::detail {
+
+/// From one tile to another. A question that ends, and a birth that does, are named as they began.
+template <int D>
+struct Message {
+  enum class Kind : std::uint8_t { ask, end, arrive, depart };
+  Kind kind;
+  std::uint32_t to;
+  Look<D> look;    // ask, end
+  Birth<D> birth;  // arrive, depart
+
+  [[nodiscard]] const Turn<D>& turn() const noexcept {
+    return kind < Kind::arrive ? look.turn : birth.turn;
+  }
+};
+
+/// What a tile has done so far.
+struct TileCounts {
+  std::uint64_t run = 0;        // calls of a first run
+  std::uint64_t again = 0;      // calls that ran, or ran again, to bring it up to date
+  std::uint64_t questions = 0;  // asked by others
+  std::uint64_t seen = 0;       // vertices of others that came to be seen
+  std::uint64_t born = 0;       // vertices of its own that others gave birth to
+};
+
+template <int D>
+class TileMesher {
+ public:
+  /// `level`: of a point, the deepest one at which it is crowded among those of all tiles.
+  struct Edit {
+    Point<D> p;
+    std::optional<int> was, is;  // nothing: it is not there
+    [[nodiscard]] Edit inverse() const { return {p, is, was}; }
+  };
+
+  TileMesher(const Options<D>& options, const MeshBox<D>& box, const Territories<D>& all,
+             std::size_t self);
+  TileMesher(const TileMesher&) = delete;
+  TileMesher& operator=(const TileMesher&) = delete;
+  ~TileMesher();
+
+  /// Notes edits of points of the territory, and the messages of tile `from`, for the next run.
+  /// What throws leaves the tile good for nothing.
+  void edit(const std::vector<Edit>& edits);
+  void receive(std::size_t from, const std::vector<Message<D>>& messages);
+  /// Tells report(calls) of calls that have run since, some thousand times a second; if it returns
+  /// false the run ends with sac::Cancelled.
+  void watch(std::function<bool(std::uint64_t)> report);
+  /// Whether something waits to be run.
+  [[nodiscard]] bool is_dirty() const noexcept { return !orders_.empty(); }
+  [[nodiscard]] std::size_t orders() const noexcept { return orders_.size(); }
+
+  /// The parts of a first run: points are located; parts 0 to parts() - 1, by buckets; stars. What
+  /// throws leaves the tile good for nothing.
+  void run_quadtree();
+  void begin_questions();
+  void run_part(int part);
+  void run_stars();
+  [[nodiscard]] int parts() const noexcept { return static_cast<int>(world_->parts.size()); }
+  [[nodiscard]] std::uint64_t waiting_in(int part) const noexcept {
+    return world_->parts[static_cast<std::size_t>(part)]->waiting_calls();
+  }
+  /// The first part from `part` on in which calls wait.
+  [[nodiscard]] int next_part(int part) const noexcept;
+  /// Brings what has run up to date with what was noted. What throws leaves everything as it was;
+  /// what was noted waits for another try.
+  void propagate();
+
+  /// What is new for others since the last call; adds to `changes` what is new in the mesh. What
+  /// throws leaves the tile good for nothing.
+  struct Changes {
+    struct Event {
+      Point<D> p;
+      VertexKind kind;
+      bool came;
+    };
+    std::vector<Event> vertices;  // in their order
+    std::vector<std::array<Point<D>, D + 1>> simplices_come, simplices_gone;
+  };
+  [[nodiscard]] std::vector<Message<D>> collect(Changes* changes);
+
+  /// Vertices of the territory, and simplices that one of them outputs.
+  [[nodiscard]] std::size_t own_vertices() const noexcept { return own_vertices_; }
+  [[nodiscard]] std::size_t own_simplices() const;
+  [[nodiscard]] const World<sac::Scope, D>& world() const noexcept { return *world_; }
+  [[nodiscard]] const TileBorder<D>& border() const noexcept { return *border_; }
+  [[nodiscard]] const TileCounts& counts() const noexcept { return counts_; }
+  [[nodiscard]] const sac::Engine& engine() const noexcept { return *engine_; }
+  [[nodiscard]] std::size_t bytes() const;
+  /// The certificate of what this tile and another know of each other: each look of this one that
+  /// reaches the other's territory is asked there, and all that was found has arrived, at its turn;
+  /// so have births beyond the border. If that holds for all pairs, the mesh is that of one mesher
+  /// for all. Returns: what is wrong; empty: nothing. Cost: O(looks and births across borders).
+  [[nodiscard]] std::string fault_with(const TileMesher& other) const;
+  void check_invariants() const;
+
+ private:
+  // Who has asked, and what it was told.
+  struct Question {
+    std::uint32_t from;
+    Look<D> look;
+  };
+  struct Order {  // what is to be posted, or taken back
+    enum class Kind : std::uint8_t { locate, ask, arrive };
+    Kind kind;
+    bool begins;
+    Point<D> p;
+    Turn<D> turn;
+    int number;          // locate: the level; arrive: the bucket
+    std::uint32_t name;  // ask: the question; arrive: from which tile
+    double radius;
+  };
+  struct Asked {                                                    // of another tile
+    std::unordered_map<Look<D>, std::uint32_t, TurnHash<D>> looks;  // how often
+  };
+  struct Asker {  // another tile
+    std::unordered_map<Look<D>, std::uint32_t, TurnHash<D>> questions;
+    // Who was found for it, and the turns of their births; nothing: it knows. What it was told it
+    // knows for good: if it forgot what is hidden from it, two tiles could hide things from each
+    // other by what they were about to forget.
+    std::unordered_map<VertexHandle, std::optional<Turn<D>>> told;
+  };
+  struct From {
+    Turn<D> turn;
+    std::uint32_t tile;
+  };
+
+  [[nodiscard]] sac::Agenda& agenda(const Turn<D>& turn) noexcept;
+  void post_orders();
+  void carry_out(const Order& order);
+  void carry_out_in_complete(const Order& order, int bucket);
+  void locate(const Order& order, VertexRef<D> v);
+  void ask(std::uint32_t from, const Look<D>& look);
+  void end(std::uint32_t from, const Look<D>& look);
+  void arrived(std::uint32_t from, const Birth<D>& birth);
+  void departed(std::uint32_t from, const Birth<D>& birth);
+  using Doubtful = std::vector<std::vector<VertexHandle>>;  // what a tile may have to be told
+  void collect_looks(std::vector<Message<D>>& out, Doubtful& doubtful);
+  void collect_births(std::vector<Message<D>>& out);
+  void collect_answers(Doubtful& doubtful);
+  void note(std::size_t tile, VertexHandle h, Doubtful& doubtful);
+  void tell(Doubtful& doubtful, std::vector<Message<D>>& out);
+  [[nodiscard]] std::optional<Turn<D>> birth_for(std::uint32_t asker, const Vertex<D>& v) const;
+  [[nodiscard]] bool has_arrived(std::size_t from, const Point<D>& p, const Turn<D>& turn) const;
+  void count_own(const std::vector<VertexHandle>& touched) noexcept;
+  void collect_changes(Changes& changes) const;
+
+  const Territories<D>& all_;
+  std::size_t self_;
+  std::unique_ptr<sac::Engine> engine_;
+  std::unique_ptr<TileBorder<D>> border_;
+  std::unique_ptr<World<sac::Scope, D>> world_;
+  std::vector<Order> orders_;
+  std::size_t own_vertices_ = 0;
+  TileCounts counts_;
+  std::vector<Asked> asked_;   // by tile
+  std::vector<Asker> askers_;  // by tile
+  std::unordered_map<std::uint32_t, Question> questions_;
+  std::uint32_t next_question_ = 0;
+  std::unordered_multimap<Point<D>, From, TurnHash<D>> from_;  // whose births have arrived
+};
+
+}  // namespace mesher::detail

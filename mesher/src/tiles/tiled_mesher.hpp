@@ -1,0 +1,150 @@
+// The tiles of a mesh, on threads: they run at once, exchange messages, and run again until there
+// are none.
+//
+// A first run settles bucket after bucket: births without what surrounds them would have others
+// that nobody needs.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "borders/territory.hpp"
+#include "mesher/meshing.hpp"
+#include "tiles/tile_mesher.hpp"
+
+namespace mesher::detail {
+
+/// How tiles came to agree.
+struct Exchanges {
+  std::uint64_t rounds = 0;
+  std::uint64_t messages = 0;
+  std::uint64_t horizons = 0;  // of a first run
+};
+
+/// The messages of a tile that wait: those of early turns are sent first, since what a tile says of
+/// later ones may change when it knows of the earlier ones. What has been said and taken back is
+/// never sent.
+template <int D>
+class Outbox {
+ public:
+  void add(const Message<D>& m) {
+    using Kind = typename Message<D>::Kind;
+    const bool begins = m.kind == Kind::ask || m.kind == Kind::arrive;
+    const auto [it, is_new] = waiting_.try_emplace(key(m), begins ? 1 : -1);
+    if (!is_new) waiting_.erase(it);  // the opposite
+  }
+  [[nodiscard]] bool is_empty() const noexcept { return waiting_.empty(); }
+  /// Of the first that waits; equal for those of one bucket.
+  using Time = std::pair<Stage, std::uint32_t>;
+  [[nodiscard]] Time first() const noexcept { return time(waiting_.begin()->first.turn); }
+  /// Calls send(message) for those until then, and forgets them.
+  template <class Send>
+  void send_until(const Time& last, Send&& send) {
+    auto it = waiting_.begin();
+    for (; it != waiting_.end() && time(it->first.turn) <= last; ++it) send(message(*it));
+    waiting_.erase(waiting_.begin(), it);
+  }
+
+ private:
+  using Kind = typename Message<D>::Kind;
+  struct Key {
+    Turn<D> turn;
+    std::uint32_t to;
+    bool is_birth;
+    Look<D> look;
+    Birth<D> birth;
+    friend auto operator<=>(const Key&, const Key&) = default;
+  };
+  static Key key(const Message<D>& m) {
+    return {m.turn(), m.to, m.kind == Kind::arrive || m.kind == Kind::depart, m.look, m.birth};
+  }
+  static Message<D> message(const std::pair<const Key, int>& waiting) {
+    const auto& [k, sign] = waiting;
+    const Kind kind =
+        k.is_birth ? (sign > 0 ? Kind::arrive : Kind::depart) : (sign > 0 ? Kind::ask : Kind::end);
+    return {kind, k.to, k.look, k.birth};
+  }
+  static Time time(const Turn<D>& turn) noexcept {
+    return {turn.stage, turn.rank >> (kKeyWidths.phase + kKeyWidths.colour)};
+  }
+
+  std::map<Key, int> waiting_;  // 1: begins, -1: ends
+};
+
+template <int D>
+class TiledMesher {
+ public:
+  using Edits = std::vector<std::vector<typename TileMesher<D>::Edit>>;  // by tile
+  using Changes = typename TileMesher<D>::Changes;
+
+  /// `places`: of the input's points, which say where the cuts are.
+  TiledMesher(const Options<D>& options, const MeshBox<D>& box, const std::vector<Point<D>>& places,
+              std::size_t tiles, std::size_t threads);
+
+  /// `control` is asked, on the thread of the caller, while something runs. `ask(phase, calls)`:
+  /// false if the run shall stop.
+  using Ask = std::function<bool(Phase, std::uint64_t)>;
+  /// Throws: Error, sac::Cancelled, std::bad_alloc, what `ask` throws: good for nothing then.
+  void first_run(const Edits& edits, const Ask& ask);
+  /// Makes the edits; last(changes) is called when all agree. Throws: likewise, and what `last`
+  /// throws: the edits are then taken back, by a run of their inverses. If that fails, too, every
+  /// further update throws sac::UsageError.
+  void update(const Edits& edits, const Ask& ask, const std::function<void(Changes&)>& last);
+
+  [[nodiscard]] std::size_t size() const noexcept { return tiles_.size(); }
+  [[nodiscard]] const Territories<D>& territories() const noexcept { return all_; }
+  [[nodiscard]] const TileMesher<D>& operator[](std::size_t t) const noexcept { return *tiles_[t]; }
+  [[nodiscard]] const Exchanges& exchanges() const noexcept { return exchanges_; }
+  [[nodiscard]] Mesh<D> mesh() const;
+  [[nodiscard]] std::size_t vertices() const noexcept;
+  /// Of the phases of the first run.
+  [[nodiscard]] const std::array<double, 3>& seconds() const noexcept { return seconds_; }
+  /// Calls that have run.
+  [[nodiscard]] std::uint64_t calls() const noexcept;
+  /// TileMesher::fault_with of all pairs: empty if the mesh is certain to be that of one mesher.
+  [[nodiscard]] std::string certificate_fault() const;
+  /// Whether an update could not be taken back: then only the end is left.
+  [[nodiscard]] bool is_broken() const noexcept { return broken_; }
+  void check_invariants() const;
+
+ private:
+  template <class Act>
+  void for_each_tile(std::uint64_t work, Act&& act);
+  template <class Act>
+  void run(const std::vector<std::size_t>& which, std::uint64_t work, Act&& act);
+  void watch(const Ask& ask);
+  void unwatch() noexcept;
+  void exchange();
+  void settle(Changes* changes);
+  void require_all() const;
+  void require_sound() const;
+  void take_back(const Edits& edits) noexcept;
+
+  Options<D> options_;
+  std::size_t threads_;
+  Territories<D> all_;
+  std::vector<std::unique_ptr<TileMesher<D>>> tiles_;
+  std::vector<std::vector<Message<D>>> out_;  // by tile: what it has said last
+  std::vector<Outbox<D>> waiting_;            // by tile: what it has said before
+  Exchanges exchanges_;
+  std::array<double, 3> seconds_{};
+  bool broken_ = false;
+  bool is_exact_ = true;  // what tiles know of each other is what they have said
+
+  // While `ask_` is asked.
+  Ask ask_;
+  Phase phase_ = Phase::update;
+  std::thread::id asker_;
+  std::atomic<bool> stops_ = false;
+  std::atomic<std::uint64_t> calls_ = 0;
+};
+
+}  // namespace mesher::detail
