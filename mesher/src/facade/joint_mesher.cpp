@@ -281,6 +281,23 @@ MeshStats JointMesher<D>::stats() const {
 }
 
 template <int D>
+JointCounts JointMesher<D>::counts() const {
+  JointCounts all;
+  all.exchanges = tiles().exchanges();
+  for (std::size_t t = 0; t < tiles().size(); ++t) all.seen += tiles()[t].counts().seen;
+  const std::uint64_t own = tiles().vertices();
+  auto& e = all.exchanges;
+  std::array<std::uint64_t, 5> sums{e.messages, e.messages_out, e.bytes_out, all.seen, own};
+  peers_->sum(sums);
+  e.messages = sums[0], e.messages_out = sums[1], e.bytes_out = sums[2];
+  all.seen = sums[3], all.vertices = sums[4];
+  std::array<std::uint64_t, 3> least{own, ~own, ~e.most_bytes_out};
+  peers_->least(least);
+  all.least_vertices = least[0], all.most_vertices = ~least[1], e.most_bytes_out = ~least[2];
+  return all;
+}
+
+template <int D>
 void JointMesher<D>::check_invariants() const {
   if (state_->ran()) state_->check_invariants();
 }

@@ -21,6 +21,14 @@ namespace mesher::detail {
 /// Who is told of a change: each process of what is its own, the first of all, or all of all.
 enum class Told : std::uint8_t { own, first, all };
 
+/// Sums over all processes, unless said otherwise.
+struct JointCounts {
+  Exchanges exchanges;  // rounds, horizons: of each; most_bytes_out: the most of one
+  std::uint64_t seen = 0;
+  std::uint64_t vertices = 0;
+  std::uint64_t least_vertices = 0, most_vertices = 0;  // of one
+};
+
 template <int D>
 class JointMesher {
  public:
@@ -50,6 +58,9 @@ class JointMesher {
   [[nodiscard]] Mesh<D> gather(std::size_t to = 0) const;
   /// Of all: sums, but of seconds the most.
   [[nodiscard]] MeshStats stats() const;
+
+  /// Of all. Requires: an update.
+  [[nodiscard]] JointCounts counts() const;
 
   /// Points of the last update.
   [[nodiscard]] std::size_t size() const noexcept { return state_->size(); }
