@@ -232,6 +232,7 @@ void TiledMesher<D>::exchange(const Time& last) {
   if (!peers_.is_alone()) {
     std::uint64_t bytes = 0;
     for (std::size_t k = 0; k < views_.size(); ++k) {
+      if (failure_) to_others_[k].clear();  // the last message may not be whole
       views_[k] = to_others_[k].bytes();
       bytes += views_[k].size();
     }
