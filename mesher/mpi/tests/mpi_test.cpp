@@ -51,7 +51,7 @@ void check_plane() {
 
 void check_space() {
   std::uint64_t seed = 100;
-  for (const PointKind kind : kFamilies) check_edits<3>(kind, 30, 1, 3, seed++);
+  for (const PointKind kind : kFamilies) check_edits<3>(kind, 20, 1, 2, seed++);
   check_edits<3>(PointKind::uniform, 2, 1, 3, seed);
 }
 
