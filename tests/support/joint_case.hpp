@@ -210,6 +210,46 @@ void check_failures(M& joint, std::size_t self, std::size_t size) {
   }
 }
 
+/// Points of different processes swap their places, and one comes where another goes.
+template <class M>
+void check_places(M& joint, std::size_t self, std::size_t size) {
+  const auto points = mesher::generate_points<2>(mesher::PointKind::uniform, 100, 5);
+  JointCase<2, M> both(joint, self, size, points, 2);
+  both.edit(1, points[1]), both.edit(2, points[0]);
+  both.update("two points swap");
+  for (std::int64_t i = 0; i < 6; ++i) {
+    both.edit(10 + i, std::nullopt);
+    both.edit(1000 + i, points[static_cast<std::size_t>(9 + i)]);
+  }
+  both.update("points come where others go");
+}
+
+/// Who is told of a change. `Told`: the mesher's own.
+template <class Told, class M>
+void check_told(M& joint, std::size_t self, std::size_t size) {
+  const auto points = mesher::generate_points<2>(mesher::PointKind::uniform, 200, 5);
+  mesher::BoxMesher<2> one(joint_options<2>(points));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (self == size - 1) joint.insert(mesher::PointId(i + 1), points[i]);
+    one.insert(mesher::PointId(i + 1), points[i]);
+  }
+  one.update();
+  const auto own = joint.update({}, Told::own);
+  const mesher::Mesh<2> part = joint.own_mesh();
+  demand(own.simplices_added.size() == part.simplices.size(), "the simplices of a part");
+  demand(own.vertices_added.size() <= part.vertices.size(), "the vertices of a part");
+  if (self == 0) joint.move(mesher::PointId{1}, {0.5, 0.5});
+  one.move(mesher::PointId{1}, {0.5, 0.5});
+  const auto expected = one.update();
+  const auto change = joint.update({}, Told::first);
+  using Simplices = decltype(expected.simplices_added);
+  demand(change.simplices_added == (self == 0 ? expected.simplices_added : Simplices()),
+         "what the first is told");
+  demand(joint.gather(static_cast<int>(size) - 1) ==
+             (self == size - 1 ? one.mesh() : mesher::Mesh<2>()),
+         "the mesh in the last");
+}
+
 /// No more vertices than allowed.
 template <class M>
 void check_too_many(M& joint, std::size_t self, std::size_t size,

@@ -1,7 +1,7 @@
 // Ranks: at every step the mesh, and the change, are those of one process, whatever happens on the
 // way. One case, by name, on the ranks that mpirun starts.
 //
-//   mpirun -n P mpi_test plane|space|failures|limit|memory|files FOLDER
+//   mpirun -n P mpi_test plane|space|places|failures|limit|memory|files FOLDER
 #include "mesher/mpi.hpp"
 
 #include <cstdio>
@@ -53,6 +53,18 @@ void check_space() {
   std::uint64_t seed = 100;
   for (const PointKind kind : kFamilies) check_edits<3>(kind, 20, 1, 2, seed++);
   check_edits<3>(PointKind::uniform, 2, 1, 3, seed);
+}
+
+template <class Check>
+void check_with(const Check& check) {
+  const auto points = mesher::generate_points<2>(PointKind::uniform, 200, 5);
+  MpiMesher<2> m(MPI_COMM_WORLD, support::joint_options<2>(points));
+  check(m);
+}
+
+void check_places() {
+  check_with([](auto& m) { support::check_places(m, self, size); });
+  check_with([](auto& m) { support::check_told<mesher::Told>(m, self, size); });
 }
 
 void check_failures() {
@@ -146,8 +158,9 @@ int main(int argc, char** argv) {
   const struct {
     const char* name;
     void (*check)();
-  } kCases[] = {{"plane", check_plane}, {"space", check_space},   {"failures", check_failures},
-                {"limit", check_limit}, {"memory", check_memory}, {"files", check_files}};
+  } kCases[] = {{"plane", check_plane},   {"space", check_space}, {"failures", check_failures},
+                {"places", check_places}, {"limit", check_limit}, {"memory", check_memory},
+                {"files", check_files}};
   bool is_known = false;
   try {
     for (const auto& one : kCases) {

@@ -253,7 +253,7 @@ Change<D> TiledState<D>::propagate(const Edits<D>& edits, const RunControl& cont
     });
     tiles_->update(by_tile, ask, last);
   } catch (...) {
-    take_back(std::move(moves));
+    together(peers_, [&] { take_back(std::move(moves)); });
     if (tiles_->is_broken()) tiles_ = build({});  // the mesh is a function of the points
     throw;
   }

@@ -36,7 +36,7 @@ TEST_CASE("in several processes every update is that of one, in the plane") {
   std::uint64_t seed = 1;
   for (const PointKind kind : kFamilies) {
     for (const std::size_t processes : {1, 2, 3, 5}) {
-      check_edits<2>(kind, 150, processes, 1 + static_cast<int>(seed % 3), 12, seed);
+      check_edits<2>(kind, 120, processes, 1 + static_cast<int>(seed % 3), 6, seed);
       ++seed;
     }
   }
@@ -45,15 +45,30 @@ TEST_CASE("in several processes every update is that of one, in the plane") {
 
 TEST_CASE("in several processes every update is that of one, in space") {
   std::uint64_t seed = 100;
-  for (const PointKind kind : kFamilies) {
-    for (const std::size_t processes : {2, 5}) check_edits<3>(kind, 24, processes, 1, 2, seed++);
+  for (const PointKind kind : {PointKind::clusters, PointKind::grid, PointKind::spread}) {
+    for (const std::size_t processes : {2, 5}) check_edits<3>(kind, 20, processes, 1, 2, seed++);
   }
-  check_edits<3>(PointKind::uniform, 150, 3, 2, 3, seed);
+  check_edits<3>(PointKind::uniform, 120, 3, 2, 2, seed);
 }
 
 TEST_CASE("more processes than points") {
   for (const std::size_t n : {0, 1, 2, 3, 5}) check_edits<2>(PointKind::uniform, n, 7, 1, 12, n);
   for (const std::size_t n : {0, 1, 3}) check_edits<3>(PointKind::uniform, n, 5, 1, 4, n);
+}
+
+TEST_CASE("places are judged when the edits of all processes are made; who is told of a change") {
+  const auto points = mesher::generate_points<2>(PointKind::uniform, 200, 5);
+  for (const std::size_t processes : {1, 2, 3}) {
+    CAPTURE(processes);
+    REQUIRE_NOTHROW(support::in_processes(processes, [&](auto peers, std::size_t self) {
+      JointMesher<2> joint(std::move(peers), support::joint_options<2>(points));
+      support::check_places(joint, self, processes);
+    }));
+    REQUIRE_NOTHROW(support::in_processes(processes, [&](auto peers, std::size_t self) {
+      JointMesher<2> joint(std::move(peers), support::joint_options<2>(points));
+      support::check_told<mesher::detail::Told>(joint, self, processes);
+    }));
+  }
 }
 
 TEST_CASE("an update that fails in one process is taken back in all") {
