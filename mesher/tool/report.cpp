@@ -96,22 +96,24 @@ Json json_of(const std::vector<mesher::PoorBeside>& places) {
   return all;
 }
 
+std::string milliseconds(double seconds) { return format("%.3f ms", seconds * 1000); }
+
+}  // namespace
+
 void print_notes(const std::vector<mesher::Note>& notes) {
   for (const auto& note : notes) {
     std::fprintf(stderr, "%s: note: %s\n", text_of(note.location).c_str(), note.text.c_str());
   }
 }
 
-template <class AnyInput>
-void print_repairs(const AnyInput& input) {
+template <int D>
+void print_repairs(const Input<D>& input) {
   for (const auto& note : input.repairs()) {
     std::fprintf(stderr, "%s\n", note.text("repair: ").c_str());
   }
 }
-
-std::string milliseconds(double seconds) { return format("%.3f ms", seconds * 1000); }
-
-}  // namespace
+template void print_repairs(const Input<2>&);
+template void print_repairs(const Input<3>&);
 
 namespace {
 

@@ -152,6 +152,11 @@ endsolid soup
 END
 refuse 1 'error[repeated_polygon]' mesh soup.stl --surface -o out/x.vtu
 refuse 1 '; --repair mends this' mesh soup.stl --surface -o out/x.vtu
+expect 0 'repair: polygon 6 is dropped: nothing is left of it' repair soup.stl --surface -o soup.poly
+expect 0 'nothing was to be repaired' repair soup.poly -o again.smesh
+expect 0 'surface repairs its faces, too' repair soup.stl
+expect 0 '' mesh soup.poly --quiet -o soup.3.node
+expect 0 'polygons    ok' check soup.3.node --input soup.poly --rho 2
 for merged in '' --merge; do
   # shellcheck disable=SC2086
   expect 0 'repair: polygon 6 is dropped: nothing is left of it' \
