@@ -47,10 +47,6 @@ void write(const mesher::Graph<3>& graph, const std::string& path, mesher::TextF
   is_poly ? mesher::write_poly(graph, file) : mesher::write_smesh(graph, file);
 }
 
-std::string counted(std::size_t n, const std::string& what) {
-  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-}
-
 template <int D>
 std::string contents(const mesher::Graph<D>& graph) {
   std::string text = counted(graph.points.size(), "point") + ", " +

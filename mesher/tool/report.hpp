@@ -17,6 +17,11 @@
 
 namespace tool {
 
+/// "1 point", "2 points".
+[[nodiscard]] inline std::string counted(std::size_t n, const std::string& what) {
+  return std::to_string(n) + ' ' + what + (n == 1 ? "" : "s");
+}
+
 /// Keeps the order in which fields are given.
 using Json = nlohmann::ordered_json;
 
