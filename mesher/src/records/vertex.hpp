@@ -117,6 +117,8 @@ class VertexPool {
     }
   }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  /// All handles are below.
+  [[nodiscard]] VertexHandle end_of_handles() const noexcept { return next_; }
   /// Whether handles are 1 .. size(), and the next record's is the next one.
   [[nodiscard]] bool is_dense() const noexcept { return size_ + 1 == next_; }
   [[nodiscard]] std::size_t bytes() const noexcept {
