@@ -8,7 +8,7 @@
 #include "program/meter.hpp"
 #include "rules/mesh_box.hpp"
 #include "sizes/limits_of.hpp"
-#include "text/id_text.hpp"
+#include "tiles/on_threads.hpp"
 
 namespace mesher::detail {
 
@@ -72,6 +72,17 @@ VertexHandle TiledState<D>::add_point(PointId id, const Point<D>& p) {
 
 // --- The first run ---------------------------------------------------------------------------
 
+// Of all points, by parts of the pool: these are in Morton order.
+template <int D>
+void TiledState<D>::find_levels(std::size_t threads) {
+  on_threads(threads, [&](std::size_t part) {
+    typename FeatureTree<D>::Path path;
+    points_.for_each_in(part, threads, [&](Vertex<D>& v) {
+      v.level = static_cast<std::int16_t>(features_.crowded_level(v, path));
+    });
+  });
+}
+
 // Tiles of the points that there are.
 template <int D>
 auto TiledState<D>::build(const typename TiledMesher<D>::Ask& ask)
@@ -82,8 +93,8 @@ auto TiledState<D>::build(const typename TiledMesher<D>::Ask& ask)
   points_.for_each([&](const Vertex<D>& v) { places.push_back(v.p); });
   auto tiles = std::make_unique<TiledMesher<D>>(options_, box_, places, threads, threads);
   TileEdits by_tile(tiles->size());
+  find_levels(threads);
   points_.for_each([&](Vertex<D>& v) {
-    v.level = static_cast<std::int16_t>(features_.crowded_level(v));
     names_[v.self].level = v.level;
     by_tile[tiles->territories().owner(v.p)].push_back({v.p, std::nullopt, int{v.level}});
   });

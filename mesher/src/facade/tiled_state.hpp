@@ -65,6 +65,7 @@ class TiledState final : public AnyState<D> {
   };
 
   [[nodiscard]] std::unique_ptr<TiledMesher<D>> build(const typename TiledMesher<D>::Ask& ask);
+  void find_levels(std::size_t threads);
   VertexHandle add_point(PointId id, const Point<D>& p);
   [[nodiscard]] TileEdits make(const PointEdits<D>& edits, Moves& moves);
   void take_back(Moves moves);

@@ -9,6 +9,7 @@
 #include "mesh/canonical.hpp"
 #include "program/triangulate.hpp"
 #include "program/world_impl.hpp"
+#include "tiles/on_threads.hpp"
 
 namespace mesher::detail {
 
@@ -305,42 +306,73 @@ std::uint64_t TiledMesher<D>::calls() const noexcept {
   return all;
 }
 
+// What a tile has of the mesh. Vertices are numbered by tile, in the order of handles.
+template <int D>
+struct TiledMesher<D>::Part {
+  std::vector<Point<D>> places;
+  std::vector<VertexKind> kinds;
+  std::vector<std::uint32_t> number;  // of its own vertices, by handle
+  std::vector<std::array<std::uint32_t, D + 1>> simplices;
+  std::uint32_t first = 0;  // the number of its first vertex
+};
+
+template <int D>
+void TiledMesher<D>::number_vertices(std::size_t t, Part& part) const {
+  const auto& pool = tiles_[t]->world().vertices.pool();
+  part.number.assign(pool.end_of_handles(), kUnnumbered);
+  part.places.reserve(tiles_[t]->own_vertices());
+  part.kinds.reserve(tiles_[t]->own_vertices());
+  pool.for_each([&](const Vertex<D>& v) {
+    if (!v.alive || !all_.owns(t, v.p)) return;
+    part.number[v.self] = static_cast<std::uint32_t>(part.places.size());
+    part.places.push_back(v.p);
+    part.kinds.push_back(v.kind());
+  });
+}
+
+// Requires: the numbers of all tiles' own vertices, which stay as they are.
+template <int D>
+void TiledMesher<D>::list_simplices(std::size_t t, std::vector<Part>& parts) const {
+  const auto& vertices = tiles_[t]->world().vertices;
+  const auto& pool = vertices.pool();
+  Part& part = parts[t];
+  std::vector<std::uint32_t> foreign(part.number.size(), kUnnumbered);
+  const auto number_of = [&](VertexHandle h) {
+    if (part.number[h] != kUnnumbered) return part.first + part.number[h];
+    if (foreign[h] == kUnnumbered) {
+      const std::size_t owner = all_.owner(pool[h].p);
+      const VertexHandle there = tiles_[owner]->world().vertices.tree().find(pool[h].p)->self;
+      foreign[h] = parts[owner].first + parts[owner].number[there];
+    }
+    return foreign[h];
+  };
+  pool.for_each([&](const Vertex<D>& v) {
+    if (part.number[v.self] == kUnnumbered) return;
+    for_each_own_simplex(pool, v, vertices.ring(v), [&](const auto& simplex) {
+      auto& corners = part.simplices.emplace_back();
+      for (std::size_t k = 0; k < simplex.size(); ++k) corners[k] = number_of(simplex[k]);
+    });
+  });
+}
+
 template <int D>
 Mesh<D> TiledMesher<D>::mesh() const {
   require_sound();
+  std::vector<Part> parts(tiles_.size());
+  on_threads(tiles_.size(), [&](std::size_t t) { number_vertices(t, parts[t]); });
   std::vector<Point<D>> places;
   std::vector<VertexKind> kinds;
-  std::vector<std::vector<std::uint32_t>> number(tiles_.size());  // by tile and handle
   places.reserve(vertices());
   kinds.reserve(vertices());
-  for (std::size_t t = 0; t < tiles_.size(); ++t) {
-    tiles_[t]->world().vertices.pool().for_each([&](const Vertex<D>& v) {
-      if (!v.alive || !all_.owns(t, v.p)) return;
-      if (v.self >= number[t].size()) number[t].resize(v.self + std::size_t{1});
-      number[t][v.self] = static_cast<std::uint32_t>(places.size());
-      places.push_back(v.p);
-      kinds.push_back(v.kind());
-    });
+  for (Part& part : parts) {
+    part.first = static_cast<std::uint32_t>(places.size());
+    places.insert(places.end(), part.places.begin(), part.places.end());
+    kinds.insert(kinds.end(), part.kinds.begin(), part.kinds.end());
   }
-  std::vector<std::array<std::uint32_t, D + 1>> simplices;
-  for (std::size_t t = 0; t < tiles_.size(); ++t) {
-    const auto& vertices = tiles_[t]->world().vertices;
-    const auto& pool = vertices.pool();
-    const auto number_of = [&](VertexHandle h) {
-      const std::size_t owner = all_.owner(pool[h].p);
-      if (owner == t) return number[t][h];
-      return number[owner][tiles_[owner]->world().vertices.tree().find(pool[h].p)->self];
-    };
-    pool.for_each([&](const Vertex<D>& v) {
-      if (!v.alive || !all_.owns(t, v.p)) return;
-      for_each_own_simplex(pool, v, vertices.ring(v), [&](const auto& simplex) {
-        auto& corners = simplices.emplace_back();
-        for (std::size_t k = 0; k < simplex.size(); ++k) corners[k] = number_of(simplex[k]);
-      });
-    });
-  }
+  on_threads(tiles_.size(), [&](std::size_t t) { list_simplices(t, parts); });
   return canonical<D>(places, kinds, 0, {}, [&](auto&& visit) {
-    for (const auto& simplex : simplices) visit(simplex);
+    for (const Part& part : parts)
+      std::for_each(part.simplices.begin(), part.simplices.end(), visit);
   });
 }
 

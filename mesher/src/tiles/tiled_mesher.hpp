@@ -125,6 +125,10 @@ class TiledMesher {
   void exchange();
   void settle(Changes* changes);
   void require_all() const;
+  static constexpr std::uint32_t kUnnumbered = ~std::uint32_t{0};
+  struct Part;
+  void number_vertices(std::size_t t, Part& part) const;
+  void list_simplices(std::size_t t, std::vector<Part>& parts) const;
   void require_sound() const;
   void take_back(const Edits& edits) noexcept;
 
