@@ -117,7 +117,7 @@ static int watch(const lm_progress* progress, void* user) {
   lm_live_discard(any_handle());
   return once_in(20);
 }
-/* Wrong at some places, but the same whenever it is asked: what a mesh is made with is a function. */
+/* Wrong at some places, but the same whenever it is asked: sizes are a function. */
 static double size_at(const double* at, void* user) {
   static const double wrong[] = {NAN, INFINITY, -1, 0, 1e300, 1e-300, 5};
   uint64_t bits;
