@@ -23,6 +23,7 @@
 #include "bench_help.hpp"
 #include "facade/tiled_state.hpp"
 #include "mesher/extra/generate.hpp"
+#include "rules/mesh_box.hpp"
 #include "sample.hpp"
 
 namespace {

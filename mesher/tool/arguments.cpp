@@ -186,7 +186,7 @@ class UsageOfInput : public CLI::Formatter {
 
 }  // namespace
 
-void add_program_options(CLI::App& command, MeshArguments& args) {
+void add_input_options(CLI::App& command, MeshArguments& args) {
   command
       .add_option(
           "INPUT", args.input,
@@ -215,6 +215,17 @@ void add_program_options(CLI::App& command, MeshArguments& args) {
           "2: the plane; 3: space (default: 3 if a .node or .poly file says so, or if z is\n"
           "present and not the same everywhere; for .xyz and .csv, not 0 everywhere)")
       ->check(CLI::IsMember({"2", "3"}));
+  command
+      .add_option("--domain", args.domain,
+                  "The box in which points may lie (default: the bounding box of INPUT, moved\n"
+                  "outward to a power-of-two grid)")
+      ->option_text("XMIN YMIN [ZMIN] XMAX YMAX [ZMAX]")
+      ->expected(4, 6)
+      ->allow_extra_args(false);
+}
+
+void add_program_options(CLI::App& command, MeshArguments& args) {
+  add_input_options(command, args);
   CLI::Option* const rho =
       command.add_option("--rho", args.rho,
                          "Bound of circumradius over shortest edge, above 1.01 and at most 100\n"
@@ -236,13 +247,6 @@ void add_program_options(CLI::App& command, MeshArguments& args) {
       .add_option("--rule", args.rule, "The rule for new vertices: radius-edge or voronoi-aspect")
       ->check(CLI::IsMember({"radius-edge", "voronoi-aspect"}))
       ->capture_default_str();
-  command
-      .add_option("--domain", args.domain,
-                  "The box in which points may lie (default: the bounding box of INPUT, moved\n"
-                  "outward to a power-of-two grid)")
-      ->option_text("XMIN YMIN [ZMIN] XMAX YMAX [ZMAX]")
-      ->expected(4, 6)
-      ->allow_extra_args(false);
   command
       .add_option("--max-area", args.max_area,
                   "No kept triangle with its centroid in the domain is larger (default: no limit)")

@@ -48,8 +48,11 @@ inline constexpr const char* kQualityHelp =
     "Its 'vertices' and 'simplices' count the box, 'kept' the output; min_angle_deg and\n"
     "max_radius_edge are those of the output, null if it is empty.";
 
-/// Adds what says which mesh it is: INPUT, --rho, --rule, --domain, limits of size, --max-vertices.
+/// Adds what says what is read: INPUT, --format, what its faces are, its dimension, --domain.
 /// `args` must outlive `command`.
+void add_input_options(CLI::App& command, MeshArguments& args);
+
+/// Adds these and what says which mesh it is: --rho, --rule, limits of size, --max-vertices.
 void add_program_options(CLI::App& command, MeshArguments& args);
 
 /// Where the meshes of a command go: to files that are named (-o, --static, --stats), or elsewhere.

@@ -10,6 +10,7 @@ void add_gen(CLI::App& app);
 void add_mesh(CLI::App& app);
 void add_edit(CLI::App& app);
 void add_view(CLI::App& app);  // where Boost is
+void add_repair(CLI::App& app);
 void add_check(CLI::App& app);
 void add_trace(CLI::App& app);
 

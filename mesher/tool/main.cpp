@@ -24,6 +24,7 @@ constexpr const char* kHelpFooter =
     "  mesher mesh lake.poly -o lake.1.node -o lake.svg\n"
     "  mesher edit lake.poly --script wall.txt -o after.1.node --stats updates.jsonl\n"
     "  mesher mesh scan.ply -o scan.vtu -o scan.svg\n"
+    "  mesher repair roads.geojson -o roads.poly\n"
     "  mesher check after.1.node --rho 1.4142\n"
     "  mesher gen uniform --n 10000 -o points.node\n"
     "  mesher trace points.node --script edits.txt -o after.trace\n"
@@ -34,12 +35,12 @@ struct Command {
   std::string_view name;
   void (*add)(CLI::App&);
 };
-constexpr Command kCommands[] = {{"gen", tool::add_gen},     {"mesh", tool::add_mesh},
-                                 {"edit", tool::add_edit},
+constexpr Command kCommands[] = {
+    {"gen", tool::add_gen},       {"mesh", tool::add_mesh},   {"edit", tool::add_edit},
 #ifdef MESHER_HAS_VIEW
-                                 {"view", tool::add_view},
+    {"view", tool::add_view},
 #endif
-                                 {"check", tool::add_check}, {"trace", tool::add_trace}};
+    {"repair", tool::add_repair}, {"check", tool::add_check}, {"trace", tool::add_trace}};
 
 // The one that is called, or all: each has some thirty options, which take longer to add than a
 // small mesh to make.

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "open_surface.hpp"
 #include "platform/process.hpp"
 
 namespace tool {
@@ -31,11 +32,6 @@ std::string format(const char* form, double value) {
 std::string of_all(std::size_t kept, std::size_t all) {
   if (kept == all) return std::to_string(all);
   return std::to_string(kept) + " of " + std::to_string(all) + " in the box";
-}
-
-// "1 point", "2 points".
-std::string counted(std::size_t n, const std::string& what) {
-  return std::to_string(n) + ' ' + what + (n == 1 ? "" : "s");
 }
 
 // Which triangles keep the bound: all, but those that small angles of the input forbid to.
@@ -96,22 +92,24 @@ Json json_of(const std::vector<mesher::PoorBeside>& places) {
   return all;
 }
 
+std::string milliseconds(double seconds) { return format("%.3f ms", seconds * 1000); }
+
+}  // namespace
+
 void print_notes(const std::vector<mesher::Note>& notes) {
   for (const auto& note : notes) {
     std::fprintf(stderr, "%s: note: %s\n", text_of(note.location).c_str(), note.text.c_str());
   }
 }
 
-template <class AnyInput>
-void print_repairs(const AnyInput& input) {
+template <int D>
+void print_repairs(const Input<D>& input) {
   for (const auto& note : input.repairs()) {
     std::fprintf(stderr, "%s\n", note.text("repair: ").c_str());
   }
 }
-
-std::string milliseconds(double seconds) { return format("%.3f ms", seconds * 1000); }
-
-}  // namespace
+template void print_repairs(const Input<2>&);
+template void print_repairs(const Input<3>&);
 
 namespace {
 
@@ -331,6 +329,25 @@ void warn_of_no_mesh(const Standing& input, const char* features) {
 
 namespace {
 
+std::string place_of(const mesher::Point<3>& p) {
+  return "(" + format("%.10g", p[0]) + format(", %.10g", p[1]) + format(", %.10g", p[2]) + ")";
+}
+
+// What people take for a solid, and is none.
+void warn_of_open_surface(const Input<3>& input, const Kept<3>& mesh) {
+  const auto open = open_surface(input.graph(), mesh.mesh, mesh.keeps_all);
+  if (!open) return;
+  const std::string edges =
+      open->edges == 1 ? "an edge has" : std::to_string(open->edges) + " edges have";
+  std::fprintf(stderr,
+               "%s: warning: the surface is open: %s a polygon on one side only, %s %s to %s; %s\n",
+               text_of(input.location(open->polygon)).c_str(), edges.c_str(),
+               open->edges == 1 ? "from" : "as from", place_of(open->from).c_str(),
+               place_of(open->to).c_str(),
+               mesh.keeps_all ? "it encloses nothing, and the whole box is kept"
+                              : "what it does not enclose is left out; --box keeps all");
+}
+
 // Names that are given to what the mesh does not have.
 template <int D>
 void print_useless_names(const MeshArguments& args, const mesher::MeshFeatures& features) {
@@ -400,6 +417,7 @@ void print_remarks(const MeshArguments& args, const Input<3>& input, const Kept<
     std::fprintf(stderr, "%s\n", input.warning(fault).c_str());
   }
   if (mesh.mesh.simplices.empty()) warn_of_no_mesh(input, "polygons");
+  if (!args.box) warn_of_open_surface(input, mesh);
 }
 
 namespace {

@@ -17,6 +17,11 @@
 
 namespace tool {
 
+/// "1 point", "2 points".
+[[nodiscard]] inline std::string counted(std::size_t n, const std::string& what) {
+  return std::to_string(n) + ' ' + what + (n == 1 ? "" : "s");
+}
+
 /// Keeps the order in which fields are given.
 using Json = nlohmann::ordered_json;
 
@@ -79,6 +84,13 @@ void print_run(const Input<3>& input, const SpaceRun& run);
 /// repaired, and which seeds have no region of their own.
 void print_remarks(const MeshArguments& args, const Input<2>& input, const Kept<2>& mesh);
 void print_remarks(const MeshArguments& args, const Input<3>& input, const Kept<3>& mesh);
+
+/// Prints on standard error what a reader has to say of a file.
+void print_notes(const std::vector<mesher::Note>& notes);
+
+/// Prints on standard error what was repaired.
+template <int D>
+void print_repairs(const Input<D>& input);
 
 /// Prints what small angles do to a mesh, and in space where the guard gave in, if that was looked
 /// at.

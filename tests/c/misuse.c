@@ -117,9 +117,15 @@ static int watch(const lm_progress* progress, void* user) {
   lm_live_discard(any_handle());
   return once_in(20);
 }
+/* Wrong at some places, but the same whenever it is asked: sizes are a function. */
 static double size_at(const double* at, void* user) {
+  static const double wrong[] = {NAN, INFINITY, -1, 0, 1e300, 1e-300, 5};
+  uint64_t bits;
   (void)user;
-  return once_in(2000) ? number() : 0.3 + 0.1 * fabs(at[0] < 1 ? at[0] : 1);
+  memcpy(&bits, at, sizeof bits);
+  bits = (bits ^ (bits >> 31)) * 0xbf58476d1ce4e5b9u >> 32;
+  if (bits % 2000 == 0) return wrong[bits / 2000 % 7];
+  return 0.3 + 0.1 * fabs(at[0] < 1 ? at[0] : 1);
 }
 
 static lm_control* control(void) {

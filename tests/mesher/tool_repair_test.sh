@@ -20,6 +20,16 @@ cat >crossing.poly <<'END'
 END
 refuse 1 '; --repair mends this' mesh crossing.poly -o out/x.vtu
 refuse 1 '; --repair mends this' mesh crossing.poly --static -o out/x.vtu
+expect 0 'crossing.poly:10:1: repair: line 1 is split at point 5 (2, 2)' repair crossing.poly
+expect 0 '6 points, 6 segments; 6 repairs' repair crossing.poly -o fitting.poly -o fitting.obj
+expect 0 'nothing was to be repaired' repair fitting.poly -o again.poly
+same fitting.poly again.poly
+expect 0 '' mesh fitting.poly --quiet -o fitting.1.node
+expect 0 '' mesh crossing.poly --repair --quiet -o fitting.2.node
+same fitting.1.ele fitting.2.ele
+refuse 2 'error[unknown_format]: a repaired file is written to .poly and .obj' \
+  repair crossing.poly -o out/x.vtu
+refuse 2 'input' repair crossing.poly -o crossing.poly
 said=$("$tool" trace crossing.poly -o out/x.trace 2>&1)
 [[ $said == *crossing.poly:*'error['* && $said != *--repair* ]] || fail "trace has no --repair: $said"
 for engine in '' --static; do

@@ -152,6 +152,11 @@ endsolid soup
 END
 refuse 1 'error[repeated_polygon]' mesh soup.stl --surface -o out/x.vtu
 refuse 1 '; --repair mends this' mesh soup.stl --surface -o out/x.vtu
+expect 0 'repair: polygon 6 is dropped: nothing is left of it' repair soup.stl --surface -o soup.poly
+expect 0 'nothing was to be repaired' repair soup.poly -o again.smesh
+expect 0 'surface repairs its faces, too' repair soup.stl
+expect 0 '' mesh soup.poly --quiet -o soup.3.node
+expect 0 'polygons    ok' check soup.3.node --input soup.poly --rho 2
 for merged in '' --merge; do
   # shellcheck disable=SC2086
   expect 0 'repair: polygon 6 is dropped: nothing is left of it' \
@@ -169,3 +174,23 @@ expect 0 'soup.stl:4:1: repair: polygon 1 has point 5 (1, 1, 0) on it' \
   mesh soup.stl --surface --repair -o x.vtu
 refuse 1 'error[outside_domain]' mesh soup.stl --surface --repair --domain 0 0 0 1 1 1 -o out/x.vtu
 expect 0 '' mesh uniform.3d.node --repair --quiet -o x.1.node
+
+echo "== space: a surface that is open"
+box='0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n'
+sides='4 0 1 2 3\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n'
+# shellcheck disable=SC2059
+{
+  printf "OFF\n8 5 0\n$box$sides" >open.off
+  printf "OFF\n8 6 0\n$box${sides}4 4 5 6 7\n" >closed.off
+  printf "OFF\n12 7 0\n${box}.2 .2 .5\n.8 .2 .5\n.8 .8 .5\n.2 .8 .5\n${sides}4 4 5 6 7\n4 8 9 10 11\n" >inner.off
+  printf "OFF\n11 7 0\n${box}2 2 2\n3 2 2\n2 3 2\n${sides}4 4 5 6 7\n3 8 9 10\n" >loose.off
+}
+expect 0 'open.off:12: warning: the surface is open: 4 edges have a polygon on one side only, as from (0, 0, 1) to (1, 0, 1); it encloses nothing, and the whole box is kept' \
+  mesh open.off --surface -o x.vtu
+expect 0 'open: 3 edges have a polygon on one side only, as from (2, 2, 2) to (3, 2, 2); what it does not enclose is left out' \
+  mesh loose.off --surface -o x.vtu
+for fine in 'open.off --box' closed.off inner.off; do
+  # shellcheck disable=SC2086
+  said=$("$tool" mesh $fine --surface -o x.vtu 2>&1)
+  [[ $said != *open:* ]] || fail "$fine: $said"
+done

@@ -448,6 +448,8 @@ source "$here/tool_space_test.sh"
 source "$here/tool_space_repair_test.sh"
 # shellcheck source=tool_svr_test.sh
 source "$here/tool_svr_test.sh"
+# shellcheck source=tool_threads_test.sh
+source "$here/tool_threads_test.sh"
 
 echo "== the cities of the world"
 expect 0 '7343 points' mesh "$data/places.node" -o cities.node

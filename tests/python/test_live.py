@@ -276,6 +276,26 @@ class Live(unittest.TestCase):
         d.update()
         self.assertEqual(set(d.regions_of(np.flatnonzero(d.cell_kept))), {6})
 
+    def test_threads(self):
+        points = np.random.default_rng(4).random((300, 2))
+        meshes = []
+        for threads in (1, 3):
+            d = lm.LiveMesh(bounds=((0, 0), (1, 1)), threads=threads)
+            p = d.add_points(points)
+            d.update()
+            d.move(p[:20], points[:20] * .9)
+            d.update()
+            meshes.append([d.mesh()])
+            d.add_segment(p[0], p[1], marker=3)  # one thread from here on
+            d.update()
+            d.remove_points(p[5:9])
+            d.update()
+            meshes[-1].append(d.mesh())
+        for one, many in zip(*meshes):
+            self.assertTrue(np.array_equal(one.points, many.points))
+            self.assertTrue(np.array_equal(one.cells, many.cells))
+            self.assertTrue(np.array_equal(one.facets, many.facets))
+
     def test_space(self):
         d = lm.LiveMesh(bounds=((0, 0, 0), (1, 1, 1)))
         corners = [(i & 1, i >> 1 & 1, i >> 2 & 1) for i in range(8)]

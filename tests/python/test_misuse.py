@@ -74,6 +74,8 @@ class Arguments(unittest.TestCase):
                     lambda: lm.mesh(SQUARE, max_vertices=2**64 + 5),
                     lambda: lm.LiveMesh(bounds=((0, 0), (1, 1)), max_vertices=-1),
                     lambda: lm.LiveMesh(bounds=((0, 0), (1, 1)), undo=-1),
+                    lambda: lm.LiveMesh(bounds=((0, 0), (1, 1)), threads=0),
+                    lambda: lm.LiveMesh(bounds=((0, 0), (1, 1)), threads=257),
                     lambda: lm.LiveMesh(bounds=((0, 0), (1, 1)), undo="3"),
                     lambda: lm.LiveMesh(bounds=np.array(((0, 0), (1, 1 + 1j)))),
                     lambda: lm.mesh(complex_points), lambda: d.add_points(complex_points),

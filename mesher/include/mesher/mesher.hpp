@@ -292,7 +292,7 @@ class Mesher {
   /// The options as given, with these changes: rho replaces min_angle, the algorithm is gap_balls,
   /// and limits are those of the last update. mesh(input(), options()) equals mesh().
   [[nodiscard]] const Options<D>& options() const;
-  /// The engine that maintains box_mesh(); its trace can be recorded.
+  /// The engine of box_mesh(), of its first tile if there are several; its trace can be recorded.
   [[nodiscard]] const sac::Engine& engine() const;
 
   /// Checks all invariants. Throws: std::logic_error naming a broken invariant. Cost: O(trace + m

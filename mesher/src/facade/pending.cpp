@@ -51,21 +51,21 @@ auto Pending<D>::arrival_near(const Point<D>& p, PointId id) const -> const Edit
 template <int D>
 auto Pending<D>::sorted() const -> std::vector<Edit> {
   struct Placed {
+    bool stays;  // those that go are the first
     std::uint64_t order;
+    PointId id;
     const Edit* edit;
+    [[nodiscard]] auto key() const { return std::tie(stays, order, id); }
   };
   std::vector<Placed> placed;
   placed.reserve(edits_.size());
   for (const auto& [id, edit] : edits_) {
     if (edit.to == edit.was) continue;
-    placed.push_back({edit.to ? morton<D>(box_.fixed(*edit.to)) : 0, &edit});
+    const std::uint64_t order = edit.to ? morton<D>(box_.fixed(*edit.to)) : 0;
+    placed.push_back({edit.to.has_value(), order, id, &edit});
   }
-  std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
-    const auto key = [](const Placed& x) {
-      return std::tuple(x.edit->to.has_value(), x.order, x.edit->id);
-    };
-    return key(a) < key(b);
-  });
+  std::sort(placed.begin(), placed.end(),
+            [](const Placed& a, const Placed& b) { return a.key() < b.key(); });
   std::vector<Edit> all;
   all.reserve(placed.size());
   for (const Placed& p : placed) all.push_back(*p.edit);

@@ -8,7 +8,7 @@
 #include "program/meter.hpp"
 #include "rules/mesh_box.hpp"
 #include "sizes/limits_of.hpp"
-#include "text/id_text.hpp"
+#include "tiles/on_threads.hpp"
 
 namespace mesher::detail {
 
@@ -76,6 +76,17 @@ VertexHandle TiledState<D>::add_point(PointId id, const Point<D>& p) {
 
 // --- The first run ---------------------------------------------------------------------------
 
+// Of all points, by parts of the pool: these are in Morton order.
+template <int D>
+void TiledState<D>::find_levels(std::size_t threads) {
+  on_threads(threads, [&](std::size_t part) {
+    typename FeatureTree<D>::Path path;
+    points_.for_each_in(part, threads, [&](Vertex<D>& v) {
+      v.level = static_cast<std::int16_t>(features_.crowded_level(v, path));
+    });
+  });
+}
+
 // Tiles of the points that there are.
 template <int D>
 auto TiledState<D>::build(const typename TiledMesher<D>::Ask& ask)
@@ -90,8 +101,8 @@ auto TiledState<D>::build(const typename TiledMesher<D>::Ask& ask)
     tiles = std::make_unique<TiledMesher<D>>(options_, box_, places, threads * peers_.size(),
                                              threads, peers_);
     by_tile.resize(tiles->size());
+    find_levels(threads);
     points_.for_each([&](Vertex<D>& v) {
-      v.level = static_cast<std::int16_t>(features_.crowded_level(v));
       names_[v.self].level = v.level;
       const auto tile = tiles->own_tile(v.p);
       if (tile) by_tile[*tile].push_back({v.p, std::nullopt, int{v.level}});

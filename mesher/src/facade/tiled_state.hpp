@@ -79,6 +79,7 @@ class TiledState final : public AnyState<D> {
 
   void drop_others(Change<D>& change) const;
   [[nodiscard]] std::unique_ptr<TiledMesher<D>> build(const typename TiledMesher<D>::Ask& ask);
+  void find_levels(std::size_t threads);
   VertexHandle add_point(PointId id, const Point<D>& p);
   [[nodiscard]] TileEdits make(const PointEdits<D>& edits, Moves& moves);
   void take_back(Moves moves);

@@ -6,7 +6,8 @@
 
 #include <cstddef>  // says whether the C library is glibc
 
-#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_THREAD__)
 #define MESHER_WIDE_LANES [[gnu::target_clones("avx2", "default")]]
 #else
 #define MESHER_WIDE_LANES

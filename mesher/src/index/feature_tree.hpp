@@ -46,9 +46,12 @@ class FeatureTree {
   template <class Changed>
   void erase(Vertex<D>& v, Changed&& changed) noexcept;
 
+  class Path;
   /// K(p) from the tree. Cost: O(K(p)); of points in Morton order O(1) as a rule, if nothing is
   /// inserted or erased meanwhile.
-  [[nodiscard]] int crowded_level(const Vertex<D>& v) const;
+  [[nodiscard]] int crowded_level(const Vertex<D>& v) const { return crowded_level(v, path_); }
+  /// The same; threads that ask at once have a path each, which is empty to begin with.
+  [[nodiscard]] int crowded_level(const Vertex<D>& v, Path& path) const;
 
   /// Adds a point without updating K: for many at once, each then asked for its crowded_level().
   /// Requires: obstacle(v.p) == nullptr.
@@ -91,6 +94,22 @@ class FeatureTree {
   }();
   using Block = std::array<Node, kChildren>;
   using Around = std::array<Node, kBlock3>;
+
+ public:
+  /// The blocks around a place, by level, down to `deepest`; those of the cells that another place
+  /// has in common with it are the same. Good until something is inserted or erased.
+  class Path {
+   public:
+    void forget() noexcept { deepest_ = -1; }
+
+   private:
+    friend class FeatureTree;
+    Fixed<D> at_{};
+    int deepest_ = -1;  // -1: nothing
+    std::array<Around, kLevels + 1> around_;
+  };
+
+ private:
   // Of the cells around one: in which of those around its parent each is, and as which child. By
   // the half of the parent, along each axis, that it is in.
   struct Descent {
@@ -137,14 +156,7 @@ class FeatureTree {
   };
   [[nodiscard]] Below check_below(Node node, const Cell<D>& cell) const;
 
-  // The blocks around a place, by level, down to `deepest`; those of the cells that another place
-  // has in common with it are the same.
-  struct Path {
-    Fixed<D> at{};
-    int deepest = -1;  // -1: nothing
-    std::array<Around, kLevels + 1> around;
-  };
-  void forget_path() noexcept { path_.deepest = -1; }
+  void forget_path() noexcept { path_.forget(); }
 
   const MeshBox<D>& box_;
   const VertexPool<D>& vertices_;
@@ -194,15 +206,15 @@ typename FeatureTree<D>::Around FeatureTree<D>::down(const Around& around, const
 }
 
 template <int D>
-int FeatureTree<D>::crowded_level(const Vertex<D>& v) const {
+int FeatureTree<D>::crowded_level(const Vertex<D>& v, Path& path) const {
   const Fixed<D> f = box_.fixed(v.p);
-  int known = std::min(path_.deepest, MeshBox<D>::common_level(f, path_.at));
-  if (known < 0) path_.around[0] = start(), known = 0;
-  path_.at = f;
+  int known = std::min(path.deepest_, MeshBox<D>::common_level(f, path.at_));
+  if (known < 0) path.around_[0] = start(), known = 0;
+  path.at_ = f;
   for (int level = 0;; ++level) {
-    if (level > known) path_.around[level] = down(path_.around[level - 1], f, level - 1);
-    path_.deepest = std::max(known, level);
-    const Around& around = path_.around[level];
+    if (level > known) path.around_[level] = down(path.around_[level - 1], f, level - 1);
+    path.deepest_ = std::max(known, level);
+    const Around& around = path.around_[level];
     bool alone = around[kBlock3 / 2] == (kPoint | v.self);
     for (int n = 0; alone && n < kBlock3; ++n) alone = n == kBlock3 / 2 || around[n] == 0;
     if (alone) return level - 1;

@@ -55,9 +55,10 @@ struct Filled {
   bool fails = false;    // a gap ball cannot be filled
 };
 
-/// No vertex that Complete inserts has another nearer to it than this, in clips. (It is inserted
-/// for a length of its bucket or one before, to which it is no nearer than 1 / (gamma rho) clips.)
-inline constexpr double kFarthestIn = 0.125;
+/// No vertex that Complete inserts has another nearer to it than this, in the shortest lengths of
+/// its bucket. (It is inserted for a length l that is at most rho times shorter than these, and is
+/// rho l or more from all others.)
+inline constexpr double kNearest = 1.0 / 3;
 
 /// The vertex at `point`, which fills a gap ball of v. In a tile nothing, if that is not possible:
 /// it may be otherwise when other tiles have said what they have. Nor if others are too near, as
@@ -73,7 +74,7 @@ std::optional<VertexRef<D>> fill_at(S& s, World<S, D>& w, CellOf<D>& gaps, const
   };
   if (!S::kTraced || w.border == nullptr) return fill();
   try {
-    const double nearest = kFarthestIn * w.buckets().clip_radius(b);
+    const double nearest = kNearest * w.buckets().shortest(b);
     if (point.nearest2 < nearest * nearest) w.fail_useless(v, v);
     return fill();
   } catch (const Error& error) {

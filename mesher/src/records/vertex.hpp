@@ -105,11 +105,20 @@ class VertexPool {
   /// Calls visit(vertex) for every record in use, in the order of handles.
   template <class Visit>
   void for_each(Visit&& visit) const {
-    for (VertexHandle h = 1; h < next_; ++h) {
+    for_each_in(0, 1, visit);
+  }
+  /// The same of one of `parts` equal parts of the records.
+  template <class Visit>
+  void for_each_in(std::size_t part, std::size_t parts, Visit&& visit) const {
+    const std::size_t records = next_ - std::size_t{1};
+    const auto last = static_cast<VertexHandle>(records * (part + 1) / parts);
+    for (auto h = static_cast<VertexHandle>(records * part / parts + 1); h <= last; ++h) {
       if ((*this)[h].self == h) visit((*this)[h]);
     }
   }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  /// All handles are below.
+  [[nodiscard]] VertexHandle end_of_handles() const noexcept { return next_; }
   /// Whether handles are 1 .. size(), and the next record's is the next one.
   [[nodiscard]] bool is_dense() const noexcept { return size_ + 1 == next_; }
   [[nodiscard]] std::size_t bytes() const noexcept {

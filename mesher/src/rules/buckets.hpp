@@ -8,6 +8,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -31,6 +32,8 @@ class Buckets {
   [[nodiscard]] int bucket(double length2) const;
   [[nodiscard]] int count() const noexcept { return static_cast<int>(start2_.size()); }
 
+  /// Of the lengths in bucket b the shortest.
+  [[nodiscard]] double shortest(int b) const { return std::sqrt(start2_[index(b)]); }
   /// How far Complete looks in bucket b; from the last bucket on, everywhere. (A vertex that comes
   /// in bucket b is looked at in b + 1, however short the lengths beside it.)
   [[nodiscard]] double clip_radius(int b) const { return clip_[index(b)]; }

@@ -5,11 +5,13 @@
 #include <chrono>
 #include <exception>
 #include <map>
+#include <mutex>
 #include <numeric>
 
 #include "mesh/canonical.hpp"
 #include "program/triangulate.hpp"
 #include "program/world_impl.hpp"
+#include "tiles/on_threads.hpp"
 
 namespace mesher::detail {
 
@@ -483,55 +485,102 @@ std::uint64_t TiledMesher<D>::calls() const noexcept {
   return all;
 }
 
+// What a tile has of the mesh. Vertices are numbered by tile, in the order of handles.
+template <int D>
+struct TiledMesher<D>::Part {
+  std::vector<Point<D>> places;
+  std::vector<VertexKind> kinds;
+  std::vector<std::uint32_t> number;  // of its own vertices, by handle
+  std::vector<std::array<std::uint32_t, D + 1>> simplices;
+  std::uint32_t first = 0;  // the number of its first vertex
+};
+
+// Vertices of other processes, numbered behind all of this one as they are met; for all threads.
+template <int D>
+struct TiledMesher<D>::Others {
+  const IsInput& is_input;
+  std::uint32_t first;
+  std::mutex mutex{};
+  std::map<Point<D>, std::uint32_t> numbers{};
+  std::vector<Point<D>> places{};
+  std::vector<VertexKind> kinds{};
+
+  std::uint32_t number_of(const Vertex<D>& v) {
+    const std::scoped_lock lock(mutex);
+    const auto [it, is_new] =
+        numbers.try_emplace(v.p, first + static_cast<std::uint32_t>(places.size()));
+    if (is_new) {
+      const VertexKind inner = is_input(v.p) ? VertexKind::input : VertexKind::steiner;
+      places.push_back(v.p);
+      kinds.push_back(v.boundary ? VertexKind::boundary : inner);
+    }
+    return it->second;
+  }
+};
+
+template <int D>
+void TiledMesher<D>::number_vertices(std::size_t t, Part& part) const {
+  const auto& pool = tiles_[t]->world().vertices.pool();
+  part.number.assign(pool.end_of_handles(), kUnnumbered);
+  part.places.reserve(tiles_[t]->own_vertices());
+  part.kinds.reserve(tiles_[t]->own_vertices());
+  pool.for_each([&](const Vertex<D>& v) {
+    if (!v.alive || !all_.owns(first_ + t, v.p)) return;
+    part.number[v.self] = static_cast<std::uint32_t>(part.places.size());
+    part.places.push_back(v.p);
+    part.kinds.push_back(v.kind());
+  });
+}
+
+// Requires: the numbers of all tiles' own vertices, which stay as they are.
+template <int D>
+void TiledMesher<D>::list_simplices(std::size_t t, std::vector<Part>& parts, Others& others) const {
+  const auto& vertices = tiles_[t]->world().vertices;
+  const auto& pool = vertices.pool();
+  Part& part = parts[t];
+  std::vector<std::uint32_t> foreign(part.number.size(), kUnnumbered);
+  const auto number_in = [&](std::size_t tile, const Point<D>& p) {
+    const VertexHandle there = tiles_[tile]->world().vertices.tree().find(p)->self;
+    return parts[tile].first + parts[tile].number[there];
+  };
+  const auto number_of = [&](VertexHandle h) {
+    if (part.number[h] != kUnnumbered) return part.first + part.number[h];
+    if (foreign[h] == kUnnumbered) {
+      const auto owner = own_tile(pool[h].p);
+      foreign[h] = owner ? number_in(*owner, pool[h].p) : others.number_of(pool[h]);
+    }
+    return foreign[h];
+  };
+  pool.for_each([&](const Vertex<D>& v) {
+    if (part.number[v.self] == kUnnumbered) return;
+    for_each_own_simplex(pool, v, vertices.ring(v), [&](const auto& simplex) {
+      auto& corners = part.simplices.emplace_back();
+      for (std::size_t k = 0; k < simplex.size(); ++k) corners[k] = number_of(simplex[k]);
+    });
+  });
+}
+
 template <int D>
 Mesh<D> TiledMesher<D>::mesh(const IsInput& is_input) const {
   require_sound();
+  std::vector<Part> parts(tiles_.size());
+  on_threads(tiles_.size(), [&](std::size_t t) { number_vertices(t, parts[t]); });
   std::vector<Point<D>> places;
   std::vector<VertexKind> kinds;
-  std::vector<std::vector<std::uint32_t>> number(tiles_.size());  // by tile and handle
-  std::map<Point<D>, std::uint32_t> others;                       // of other processes
   places.reserve(vertices());
   kinds.reserve(vertices());
-  const auto add = [&](const Point<D>& p, VertexKind kind) {
-    places.push_back(p);
-    kinds.push_back(kind);
-    return static_cast<std::uint32_t>(places.size() - 1);
-  };
-  for (std::size_t t = 0; t < tiles_.size(); ++t) {
-    tiles_[t]->world().vertices.pool().for_each([&](const Vertex<D>& v) {
-      if (!v.alive || !all_.owns(first_ + t, v.p)) return;
-      if (v.self >= number[t].size()) number[t].resize(v.self + std::size_t{1});
-      number[t][v.self] = add(v.p, v.kind());
-    });
+  for (Part& part : parts) {
+    part.first = static_cast<std::uint32_t>(places.size());
+    places.insert(places.end(), part.places.begin(), part.places.end());
+    kinds.insert(kinds.end(), part.kinds.begin(), part.kinds.end());
   }
-  const auto number_of_other = [&](const Vertex<D>& v) {
-    const auto [it, is_new] = others.try_emplace(v.p);
-    if (is_new) {
-      const VertexKind inner = is_input(v.p) ? VertexKind::input : VertexKind::steiner;
-      it->second = add(v.p, v.boundary ? VertexKind::boundary : inner);
-    }
-    return it->second;
-  };
-  std::vector<std::array<std::uint32_t, D + 1>> simplices;
-  for (std::size_t t = 0; t < tiles_.size(); ++t) {
-    const auto& vertices = tiles_[t]->world().vertices;
-    const auto& pool = vertices.pool();
-    const auto number_of = [&](VertexHandle h) {
-      const auto owner = own_tile(pool[h].p);
-      if (!owner) return number_of_other(pool[h]);
-      if (*owner == t) return number[t][h];
-      return number[*owner][tiles_[*owner]->world().vertices.tree().find(pool[h].p)->self];
-    };
-    pool.for_each([&](const Vertex<D>& v) {
-      if (!v.alive || !all_.owns(first_ + t, v.p)) return;
-      for_each_own_simplex(pool, v, vertices.ring(v), [&](const auto& simplex) {
-        auto& corners = simplices.emplace_back();
-        for (std::size_t k = 0; k < simplex.size(); ++k) corners[k] = number_of(simplex[k]);
-      });
-    });
-  }
+  Others others{is_input, static_cast<std::uint32_t>(places.size())};
+  on_threads(tiles_.size(), [&](std::size_t t) { list_simplices(t, parts, others); });
+  places.insert(places.end(), others.places.begin(), others.places.end());
+  kinds.insert(kinds.end(), others.kinds.begin(), others.kinds.end());
   return canonical<D>(places, kinds, 0, {}, [&](auto&& visit) {
-    for (const auto& simplex : simplices) visit(simplex);
+    for (const Part& part : parts)
+      std::for_each(part.simplices.begin(), part.simplices.end(), visit);
   });
 }
 

@@ -164,6 +164,11 @@ class TiledMesher {
   void run_dirty(Changes* changes);
   void require_no_fault();
   void require_all();
+  static constexpr std::uint32_t kUnnumbered = ~std::uint32_t{0};
+  struct Part;
+  struct Others;
+  void number_vertices(std::size_t t, Part& part) const;
+  void list_simplices(std::size_t t, std::vector<Part>& parts, Others& others) const;
   void require_sound() const;
   void take_back(const Edits& edits) noexcept;
 

@@ -461,6 +461,9 @@ void ModelOf<D>::watch_calls(const Json& command, const Json& tag, const Send& s
   calls_.reset();
   calls_of_ = 0;
   if (flag_of(command, "on")) {
+    if (mesher_.options().threads > 1) {
+      throw refusal("calls are drawn of a mesh on one thread: start without --threads");
+    }
     calls_ = std::make_unique<CallPicture>(mesher_.engine(), mesher_.stats().calls);
   }
   send({Json{{"kind", "state"}, {"state", state()}, {"tag", tag}}.dump(), false, true});

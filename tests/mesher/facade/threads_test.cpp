@@ -32,8 +32,10 @@ using mesher::SplitMix64;
 using support::error_of;
 
 template <int D>
-Options<D> options_for(const std::vector<Point<D>>& points, int threads) {
+Options<D> options_for(const std::vector<Point<D>>& points, int threads,
+                       double rho = Options<D>().rho) {
   Options<D> options;
+  options.rho = rho;
   options.threads = threads;
   options.domain = mesher::snapped_domain<D>(points);
   return options;
@@ -51,10 +53,10 @@ bool is_same(const Change<D>& a, const Change<D>& b) {
 template <int D>
 class Pair {
  public:
-  Pair(const std::vector<Point<D>>& points, int threads)
-      : options_(options_for<D>(points, threads)),
+  Pair(const std::vector<Point<D>>& points, int threads, double rho = Options<D>().rho)
+      : options_(options_for<D>(points, threads, rho)),
         many_(options_),
-        one_(options_for<D>(points, 1)) {
+        one_(options_for<D>(points, 1, rho)) {
     for (const Point<D>& p : points) insert(p);
     update();
   }
@@ -137,10 +139,11 @@ class Pair {
 };
 
 template <int D>
-void check_edits(PointKind kind, std::size_t n, int threads, int steps, std::uint64_t seed) {
-  CAPTURE(D, static_cast<int>(kind), n, threads, seed);
+void check_edits(PointKind kind, std::size_t n, int threads, int steps, std::uint64_t seed,
+                 double rho = Options<D>().rho) {
+  CAPTURE(D, static_cast<int>(kind), n, threads, seed, rho);
   SplitMix64 random(seed);
-  Pair<D> pair(mesher::generate_points<D>(kind, n, seed), threads);
+  Pair<D> pair(mesher::generate_points<D>(kind, n, seed), threads, rho);
   pair.check();
   for (int step = 0; step < steps; ++step) {
     CAPTURE(step);
@@ -183,6 +186,18 @@ TEST_CASE("on several threads every update is that of one, in space") {
     for (const int threads : {2, 5}) check_edits<3>(kind, 30, threads, 4, seed++);
   }
   check_edits<3>(PointKind::uniform, 300, 3, 4, seed);
+}
+
+TEST_CASE("on several threads every update is that of one, whatever rho is") {
+  std::uint64_t seed = 200;
+  for (const double rho : {1.05, 1.2, 3.0, 5.0, 100.0}) {
+    for (const PointKind kind : {PointKind::uniform, PointKind::clusters, PointKind::spread}) {
+      check_edits<2>(kind, 60, 3, 8, seed++, rho);
+    }
+    if (rho < 2) continue;  // in space that takes many vertices
+    check_edits<3>(PointKind::uniform, 30, 2, 4, seed++, rho);
+    check_edits<3>(PointKind::grid, 30, 4, 4, seed++, rho);
+  }
 }
 
 TEST_CASE("few points, points on one plane, and more threads than points") {
