@@ -194,3 +194,28 @@ for fine in 'open.off --box' closed.off inner.off; do
   said=$("$tool" mesh $fine --surface -o x.vtu 2>&1)
   [[ $said != *open:* ]] || fail "$fine: $said"
 done
+
+echo "== space: a thin hole of a polygon, which another one fills"
+cat >thin.poly <<'END'
+7 3 0 0
+1 0 0 0
+2 4 0 0
+3 4 4 0
+4 0 4 0
+5 1 1 0
+6 3 1 0
+7 2.9 1.2 0
+2 0
+2 1
+4 1 2 3 4
+3 5 6 7
+1 2.3 1.05 0
+1 0
+3 5 6 7
+0
+0
+END
+expect 0 'nothing was to be repaired' repair thin.poly -o thin.again.poly
+has thin.again.poly '^2 1$'
+expect 0 '' mesh thin.again.poly --quiet -o thin.1.node
+expect 0 'polygons    ok' check thin.1.node --input thin.poly --rho 2
