@@ -189,6 +189,12 @@ expect 0 'open.off:12: warning: the surface is open: 4 edges have a polygon on o
   mesh open.off --surface -o x.vtu
 expect 0 'open: 3 edges have a polygon on one side only, as from (2, 2, 2) to (3, 2, 2); what it does not enclose is left out' \
   mesh loose.off --surface -o x.vtu
+echo '+polygon 7 5 6 7 8' >lid.txt
+echo '-polygon 6' >no_lid.txt
+expect 0 'the surface is open: 4 edges have a polygon on one side only' \
+  edit closed.off --surface --script no_lid.txt -o x.vtu
+said=$("$tool" edit open.off --surface --script lid.txt -o x.vtu 2>&1)
+[[ $said == *written* && $said != *open:* ]] || fail "a lid: $said"
 for fine in 'open.off --box' closed.off inner.off; do
   # shellcheck disable=SC2086
   said=$("$tool" mesh $fine --surface -o x.vtu 2>&1)
