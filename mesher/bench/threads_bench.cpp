@@ -5,7 +5,7 @@
 // default: uniform:1000000:2 clusters:300000:2 3d:uniform:100000:2. One JSON line per figure, times
 // in seconds by the clock and of the process:
 //   first_run  with points announced before: of one thread, of several, the ratio; of the latter
-//              the seconds before the tiles begin; calls over those of one, bytes of trace over
+//              the seconds before and after the tiles; calls over those of one, bytes of trace over
 //              those of one
 //   exchanges  rounds and messages of the first run, horizons; vertices of others that tiles see,
 //              over all

@@ -160,7 +160,7 @@ void run_edit_on(Target target, const EditArguments& args, Input<D> input) {
   outputs.write(mesh, followed.last_changed);
   const auto targets = outputs.targets();
   progress.erase();
-  if (!args.quiet) print_remarks(args, input, mesh);
+  if (!args.quiet) print_remarks(args, input, follower.target().input(), mesh);
   figures.print();
   outputs.commit();
   if (args.quiet || figures.printed()) return;

@@ -105,9 +105,7 @@ void gen_lines(const GenArguments& args, CommandFiles& outputs) {
     throw Error(ErrorCode::bad_option, "--dimension: lines are in the plane");
   }
   const mesher::Graph<2> pslg = mesher::generate_pslg(family_of(args));
-  mesher::TextFile& file = outputs.open(args.output);
-  const bool is_poly = std::filesystem::path(args.output).extension() == ".poly";
-  is_poly ? mesher::write_poly(pslg, file) : mesher::write_obj(pslg, file);
+  write_graph(pslg, args.output, outputs.open(args.output));
 }
 
 void gen_complex(const GenArguments& args, CommandFiles& outputs) {
@@ -122,8 +120,7 @@ void gen_complex(const GenArguments& args, CommandFiles& outputs) {
   const mesher::Graph<3> plc = mesher::generate_plc(family);
   const bool is_poly = std::filesystem::path(args.output).extension() == ".poly";
   if (!is_poly) mesher::require_single_loops(plc);
-  mesher::TextFile& file = outputs.open(args.output);
-  is_poly ? mesher::write_poly(plc, file) : mesher::write_smesh(plc, file);
+  write_graph(plc, args.output, outputs.open(args.output));
 }
 
 void run_gen(const GenArguments& args) {

@@ -126,7 +126,7 @@ void run_mesh_in(const MeshArguments& args) {
   outputs.write(result.mesh);
   const auto targets = outputs.targets();
   progress.erase();
-  if (!args.quiet) print_remarks(args, input, result.mesh);
+  if (!args.quiet) print_remarks(args, input, input.graph(), result.mesh);
   figures.print();
   outputs.commit();
   if (args.quiet || figures.printed()) return;

@@ -37,6 +37,7 @@ std::vector<Use> uses_of(const mesher::Graph<3>& graph) {
 
 std::optional<OpenSurface> open_surface(const mesher::Graph<3>& graph, const mesher::Mesh<3>& mesh,
                                         bool keeps_all) {
+  if (graph.polygons.empty()) return std::nullopt;
   std::unordered_map<mesher::PointId, mesher::Point<3>> places;
   places.reserve(graph.points.size());
   for (const auto& p : graph.points) places.emplace(p.id, p.at);

@@ -1,6 +1,8 @@
 // Output files that survive neither an error nor an interrupt.
 #include "outputs.hpp"
 
+#include <filesystem>
+
 #include "mesher/write.hpp"
 
 namespace tool {
@@ -16,6 +18,19 @@ void CommandFiles::commit() {
   require_uninterrupted();
   files_.commit();
   set_doomed({});
+}
+
+namespace {
+
+bool is_poly(const std::string& path) { return std::filesystem::path(path).extension() == ".poly"; }
+
+}  // namespace
+
+void write_graph(const mesher::Graph<2>& graph, const std::string& path, mesher::TextFile& file) {
+  is_poly(path) ? mesher::write_poly(graph, file) : mesher::write_obj(graph, file);
+}
+void write_graph(const mesher::Graph<3>& graph, const std::string& path, mesher::TextFile& file) {
+  is_poly(path) ? mesher::write_poly(graph, file) : mesher::write_smesh(graph, file);
 }
 
 // --- Meshes ----------------------------------------------------------------------------------

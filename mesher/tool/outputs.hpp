@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cancel.hpp"
+#include "mesher/graph.hpp"
 #include "mesher/meshing.hpp"
 #include "mesher/write.hpp"
 
@@ -44,6 +45,11 @@ class CommandFiles {
  private:
   mesher::OutputFiles files_;
 };
+
+/// Writes a graph to a file of this name: .poly, else in the plane .obj, in space .smesh.
+/// Requires: of .smesh, mesher::require_single_loops(graph) has not thrown.
+void write_graph(const mesher::Graph<2>& graph, const std::string& path, mesher::TextFile& file);
+void write_graph(const mesher::Graph<3>& graph, const std::string& path, mesher::TextFile& file);
 
 /// With meshes. D is 2 or 3.
 template <int D>

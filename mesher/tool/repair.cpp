@@ -17,7 +17,7 @@ namespace {
 using mesher::Error;
 using mesher::ErrorCode;
 
-// Opens the outputs, after what is wrong with their names has been said.
+// A file for each output, all of formats that hold the graph.
 template <int D>
 std::vector<mesher::TextFile*> open_graphs(const MeshArguments& args, const Input<D>& input,
                                            CommandFiles& outputs) {
@@ -38,15 +38,6 @@ std::vector<mesher::TextFile*> open_graphs(const MeshArguments& args, const Inpu
   return files;
 }
 
-void write(const mesher::Graph<2>& graph, const std::string& path, mesher::TextFile& file) {
-  const bool is_poly = std::filesystem::path(path).extension() == ".poly";
-  is_poly ? mesher::write_poly(graph, file) : mesher::write_obj(graph, file);
-}
-void write(const mesher::Graph<3>& graph, const std::string& path, mesher::TextFile& file) {
-  const bool is_poly = std::filesystem::path(path).extension() == ".poly";
-  is_poly ? mesher::write_poly(graph, file) : mesher::write_smesh(graph, file);
-}
-
 template <int D>
 std::string contents(const mesher::Graph<D>& graph) {
   std::string text = counted(graph.points.size(), "point") + ", " +
@@ -60,7 +51,9 @@ void run_repair_in(const MeshArguments& args) {
   const Input<D> input = read_input<D>(args);
   CommandFiles outputs;
   const auto files = open_graphs(args, input, outputs);
-  for (std::size_t i = 0; i < files.size(); ++i) write(input.graph(), args.outputs[i], *files[i]);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    write_graph(input.graph(), args.outputs[i], *files[i]);
+  }
   const auto targets = outputs.targets();
   if (!args.quiet) {
     print_notes(input.notes());

@@ -334,8 +334,9 @@ std::string place_of(const mesher::Point<3>& p) {
 }
 
 // What people take for a solid, and is none.
-void warn_of_open_surface(const Input<3>& input, const Kept<3>& mesh) {
-  const auto open = open_surface(input.graph(), mesh.mesh, mesh.keeps_all);
+void warn_of_open_surface(const Input<3>& input, const mesher::Graph<3>& graph,
+                          const Kept<3>& mesh) {
+  const auto open = open_surface(graph, mesh.mesh, mesh.keeps_all);
   if (!open) return;
   const std::string edges =
       open->edges == 1 ? "an edge has" : std::to_string(open->edges) + " edges have";
@@ -387,7 +388,8 @@ void print_useless_names(const MeshArguments& args, const mesher::MeshFeatures& 
 
 }  // namespace
 
-void print_remarks(const MeshArguments& args, const Input<2>& input, const Kept<2>& mesh) {
+void print_remarks(const MeshArguments& args, const Input<2>& input, const mesher::Graph<2>&,
+                   const Kept<2>& mesh) {
   print_notes(input.notes());
   print_useless_names<2>(args, mesh.mesh.features);
   if (args.region_areas && !input.has_region_limits()) {
@@ -401,7 +403,8 @@ void print_remarks(const MeshArguments& args, const Input<2>& input, const Kept<
   if (mesh.mesh.simplices.empty()) warn_of_no_mesh(input, "lines");
 }
 
-void print_remarks(const MeshArguments& args, const Input<3>& input, const Kept<3>& mesh) {
+void print_remarks(const MeshArguments& args, const Input<3>& input, const mesher::Graph<3>& graph,
+                   const Kept<3>& mesh) {
   print_notes(input.notes());
   print_useless_names<3>(args, mesh.mesh.features);
   if (args.region_areas && !input.has_region_limits()) {
@@ -417,7 +420,7 @@ void print_remarks(const MeshArguments& args, const Input<3>& input, const Kept<
     std::fprintf(stderr, "%s\n", input.warning(fault).c_str());
   }
   if (mesh.mesh.simplices.empty()) warn_of_no_mesh(input, "polygons");
-  if (!args.box) warn_of_open_surface(input, mesh);
+  if (!args.box) warn_of_open_surface(input, graph, mesh);
 }
 
 namespace {

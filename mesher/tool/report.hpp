@@ -81,9 +81,11 @@ void print_run(const Input<2>& input, const Run& run);
 void print_run(const Input<3>& input, const SpaceRun& run);
 
 /// Prints on standard error what of the input, or of what was asked for, is not used or was
-/// repaired, and which seeds have no region of their own.
-void print_remarks(const MeshArguments& args, const Input<2>& input, const Kept<2>& mesh);
-void print_remarks(const MeshArguments& args, const Input<3>& input, const Kept<3>& mesh);
+/// repaired, and which seeds have no region of their own. `graph`: the input as it is now, edited.
+void print_remarks(const MeshArguments& args, const Input<2>& input, const mesher::Graph<2>& graph,
+                   const Kept<2>& mesh);
+void print_remarks(const MeshArguments& args, const Input<3>& input, const mesher::Graph<3>& graph,
+                   const Kept<3>& mesh);
 
 /// Prints on standard error what a reader has to say of a file.
 void print_notes(const std::vector<mesher::Note>& notes);

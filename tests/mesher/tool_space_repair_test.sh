@@ -189,8 +189,39 @@ expect 0 'open.off:12: warning: the surface is open: 4 edges have a polygon on o
   mesh open.off --surface -o x.vtu
 expect 0 'open: 3 edges have a polygon on one side only, as from (2, 2, 2) to (3, 2, 2); what it does not enclose is left out' \
   mesh loose.off --surface -o x.vtu
+echo '+polygon 7 5 6 7 8' >lid.txt
+echo '-polygon 6' >no_lid.txt
+expect 0 'the surface is open: 4 edges have a polygon on one side only' \
+  edit closed.off --surface --script no_lid.txt -o x.vtu
+said=$("$tool" edit open.off --surface --script lid.txt -o x.vtu 2>&1)
+[[ $said == *written* && $said != *open:* ]] || fail "a lid: $said"
 for fine in 'open.off --box' closed.off inner.off; do
   # shellcheck disable=SC2086
   said=$("$tool" mesh $fine --surface -o x.vtu 2>&1)
   [[ $said != *open:* ]] || fail "$fine: $said"
 done
+
+echo "== space: a thin hole of a polygon, which another one fills"
+cat >thin.poly <<'END'
+7 3 0 0
+1 0 0 0
+2 4 0 0
+3 4 4 0
+4 0 4 0
+5 1 1 0
+6 3 1 0
+7 2.9 1.2 0
+2 0
+2 1
+4 1 2 3 4
+3 5 6 7
+1 2.3 1.05 0
+1 0
+3 5 6 7
+0
+0
+END
+expect 0 'nothing was to be repaired' repair thin.poly -o thin.again.poly
+has thin.again.poly '^2 1$'
+expect 0 '' mesh thin.again.poly --quiet -o thin.1.node
+expect 0 'polygons    ok' check thin.1.node --input thin.poly --rho 2

@@ -207,8 +207,8 @@ auto TiledState<D>::make(const PointEdits<D>& edits, Moves& moves) -> TileEdits 
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   moves.levels.reserve(changed.size());
   for (const VertexHandle h : changed) {
-    const auto has = [h](const auto& node) { return node.mapped() == h; };
-    if (std::any_of(moves.gone.begin(), moves.gone.end(), has)) continue;
+    const auto it = ids_.find(names_[h].id);
+    if (it == ids_.end() || it->second != h) continue;  // gone
     const Vertex<D>& v = points_[h];
     if (names_[h].level == v.level) continue;
     tell(v.p, names_[h].level, int{v.level});

@@ -147,10 +147,10 @@ class ComplexWriter {
     for (double s = 0.25; s > 0x1p-40; s /= 2) {
       const Point<3> x = detail::plus(middle, detail::scaled(s, out));
       const Point<2> uv = f.plane.in_frame(x);
-      if (!detail::loop_contains(f, loop, uv)) return std::nullopt;  // the outside is around it
+      if (!detail::loop_contains(f, loop, uv)) continue;
       if (!contains(f, uv) && is_directly_in(f, uv, loop)) return x;
     }
-    return std::nullopt;
+    return std::nullopt;  // the outside is around it
   }
   static bool is_directly_in(const detail::Polygon& f, const Point<2>& uv, std::size_t loop) {
     for (std::size_t other = 1; other < f.loop_end.size(); ++other) {

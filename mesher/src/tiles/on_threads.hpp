@@ -8,11 +8,12 @@
 
 namespace mesher::detail {
 
-/// Calls act(part) for parts 0 to parts - 1, each on a thread as far as there are threads to be
-/// had. Throws: what act has thrown, that of the first part, when all have ended; std::bad_alloc,
-/// and then has done nothing.
+/// Calls act(part), which returns nothing, for parts 0 to parts - 1, each on a thread as far as
+/// there are threads to be had. Throws: what act has thrown, that of the first part, when all have
+/// ended; std::bad_alloc, and then has done nothing.
 template <class Act>
 void on_threads(std::size_t parts, Act&& act) {
+  if (parts == 1) return act(0);
   std::vector<std::thread> others;
   std::vector<std::exception_ptr> failures(parts);
   others.reserve(parts);

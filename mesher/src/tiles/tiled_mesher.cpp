@@ -93,7 +93,7 @@ void TiledMesher<D>::run(const std::vector<std::size_t>& which, std::uint64_t wo
                          Act&& act) {
   std::vector<std::exception_ptr> failures(which.size());
   std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
+  const auto work = [&](std::size_t) {
     for (std::size_t k; (k = next++) < which.size();) {
       try {
         act(which[k]);
@@ -103,15 +103,8 @@ void TiledMesher<D>::run(const std::vector<std::size_t>& which, std::uint64_t wo
       }
     }
   };
-  std::vector<std::thread> others;
   constexpr std::uint64_t kLittle = 64;  // takes less time than to begin a thread
-  const std::size_t threads = work_to_do < kLittle ? 1 : std::min(threads_, which.size());
-  try {
-    while (others.size() + 1 < threads) others.emplace_back(work);
-  } catch (...) {  // no more threads: those that there are do it
-  }
-  work();
-  for (std::thread& other : others) other.join();
+  on_threads(work_to_do < kLittle ? 1 : std::min(threads_, which.size()), work);
   std::exception_ptr stopped;
   for (const std::exception_ptr& failure : failures) {
     if (!failure) continue;

@@ -66,7 +66,7 @@ class ModelOf final : public Model {
     mesher_.keep_slots(true);
     kept_ = count_kept(mesher_);
     progress_.erase();
-    if (!args.quiet) print_remarks(args_, input_, mesher_.domain_mesh());
+    if (!args.quiet) print_remarks(args_, input_, mesher_.input(), mesher_.domain_mesh());
   }
 
   std::string snapshot() override;
