@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <new>
+#include <utility>
 
 namespace mesher::detail {
 
@@ -50,7 +51,16 @@ MpiPeers::MpiPeers(MPI_Comm communicator) {
 MpiPeers::~MpiPeers() {
   int is_over = 0;
   MPI_Finalized(&is_over);
-  if (is_over == 0) MPI_Comm_free(&communicator_);
+  if (is_over == 0 && communicator_ != MPI_COMM_NULL) MPI_Comm_free(&communicator_);
+}
+
+void MpiPeers::swap(MpiPeers& other) noexcept {
+  Peers::swap(other);
+  std::swap(communicator_, other.communicator_);
+  std::swap(self_, other.self_);
+  sizes_out_.swap(other.sizes_out_);
+  sizes_in_.swap(other.sizes_in_);
+  requests_.swap(other.requests_);
 }
 
 void MpiPeers::reduce(Values values, MPI_Op operation) noexcept {

@@ -14,10 +14,13 @@ class MpiPeers final : public Peers {
   /// Of all ranks of `communicator`, which is duplicated: messages of others are not met. An error
   /// of MPI ends all ranks. Requires: MPI is initialized.
   explicit MpiPeers(MPI_Comm communicator);
+  /// Of no ranks.
+  MpiPeers() = default;
   MpiPeers(const MpiPeers&) = delete;
   MpiPeers& operator=(const MpiPeers&) = delete;
   /// Of all ranks, before MPI_Finalize.
   ~MpiPeers() override;
+  void swap(MpiPeers& other) noexcept;
 
   [[nodiscard]] std::size_t size() const noexcept override { return sizes_out_.size(); }
   [[nodiscard]] std::size_t self() const noexcept override { return self_; }

@@ -81,29 +81,40 @@ void check_limit() {
   support::check_too_many(m, self, size, points);
 }
 
-// One allocation after the other fails on the last rank: all ranks take the update back.
+// act(), of which an allocation fails on the last rank. Whether it has failed.
+template <class Act>
+bool fails_at(std::uint64_t count, bool& burnt, const Act& act) {
+  if (self == size - 1) return support::fails(count, burnt, act);
+  try {
+    act();
+    return false;
+  } catch (const std::bad_alloc&) {
+    return true;
+  }
+}
+
+// One allocation after the other fails on the last rank: no rank gets a mesher, and all take an
+// update back.
 void check_memory() {
   const auto points = mesher::generate_points<2>(PointKind::uniform, 24, 6);
-  MpiMesher<2> m(MPI_COMM_WORLD, support::joint_options<2>(points));
+  const auto options = support::joint_options<2>(points);
+  bool fails = true;
+  for (std::uint64_t count = 1; fails; ++count) {
+    bool burnt = false;
+    const bool failed =
+        fails_at(count, burnt, [&] { static_cast<void>(MpiMesher<2>(MPI_COMM_WORLD, options)); });
+    fails = least(failed ? 0 : 1) == 0;
+    demand(least(failed ? 1 : 0) == (fails ? 1u : 0u), "a mesher on some ranks alone");
+  }
+  MpiMesher<2> m(MPI_COMM_WORLD, options);
   const auto update = [&] { static_cast<void>(m.update()); };
-  const auto fails_at = [&](std::uint64_t count, bool& burnt) {
-    if (self != size - 1) {
-      try {
-        update();
-        return false;
-      } catch (const std::bad_alloc&) {
-        return true;
-      }
-    }
-    return support::fails(count, burnt, update);
-  };
   const auto check = [&](const auto& announce) {
     const mesher::Mesh<2> before = m.own_mesh();
     bool burnt = true;
     for (std::uint64_t count = 1; burnt; count += 1 + count / 12) {
       burnt = false;
       announce();
-      const bool failed = fails_at(count, burnt);
+      const bool failed = fails_at(count, burnt, update);
       burnt = least(burnt ? 0 : 1) == 0;
       demand(least(failed ? 0 : 1) == (failed ? 0u : 1u), "one has failed, and others have not");
       if (!failed) return;

@@ -43,6 +43,7 @@ class Peers {
  protected:
   /// The room that gather() needs, so that failures can be told where there is no memory.
   void make_room(std::size_t processes) { same_.reserve(processes); }
+  void swap(Peers& other) noexcept { same_.swap(other.same_); }
 
  private:
   Views same_;
