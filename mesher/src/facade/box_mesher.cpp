@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <string>
 
+#include "facade/announced_points.hpp"
 #include "facade/reentry_guard.hpp"
 #include "facade/state.hpp"
 #include "facade/tiled_state.hpp"
 #include "facade/whole_change.hpp"
-#include "geometry/input_point.hpp"
 #include "live/live_arrays.hpp"
 #include "mesher/predicates.hpp"
 #include "program/meter.hpp"
@@ -18,31 +18,19 @@
 
 namespace mesher {
 
-namespace {
-
-// Zero has no sign.
-template <std::size_t N>
-std::array<double, N> unsigned_zero(std::array<double, N> p) {
-  for (double& x : p) x += 0.0;
-  return p;
-}
-
-}  // namespace
-
 template <int D>
 struct BoxMesher<D>::Impl {
   using Pending = detail::Pending<D>;
   using State = detail::State<D>;
 
   explicit Impl(const Options<D>& o)
-      : options(o), state(std::make_unique<State>(o)), box(detail::mesh_box(o)), pending(box) {
+      : options(o),
+        state(std::make_unique<State>(o)),
+        box(detail::mesh_box(o)),
+        points(o.domain, box) {
     predicates::self_test();
   }
 
-  [[nodiscard]] typename Pending::Place place(PointId id) const;
-  void require_known(PointId id) const;
-  void require_free(PointId id, const Point<D>& p) const;
-  void require_apart(const std::vector<typename Pending::Edit>& edits) const;
   void insert(PointId id, const Point<D>& p);
   void insert_line(LineId id, const detail::LinePoints& points);
   void remove_line(LineId id);
@@ -63,60 +51,20 @@ struct BoxMesher<D>::Impl {
   Options<D> options;                          // with the limits of the last update
   std::unique_ptr<detail::AnyState<D>> state;  // of the last update
   detail::MeshBox<D> box;
-  Pending pending;
+  detail::AnnouncedPoints<D> points;
   detail::StagedLines lines;
   detail::StagedPolygons polygons;  // in space
   detail::PendingLimits<D> pending_limits;
   std::unique_ptr<detail::LiveArrays<D>> live;  // null: slots are not kept
   detail::ReentryGuard busy;
-  bool moved = false;  // a place was taken that was not looked at
 };
 
 // --- Edits -----------------------------------------------------------------------------------
 
 template <int D>
-auto BoxMesher<D>::Impl::place(PointId id) const -> typename Pending::Place {
-  const auto* edit = pending.find(id);
-  return edit != nullptr ? edit->to : state->place(id);
-}
-
-template <int D>
-void BoxMesher<D>::Impl::require_known(PointId id) const {
-  if (place(id)) return;
-  throw Error(ErrorCode::unknown_id, "point " + id_text(id) + " is not there", {},
-              {mesher::Feature(id)});
-}
-
-template <int D>
-void BoxMesher<D>::Impl::require_free(PointId id, const Point<D>& p) const {
-  if (const auto* other = pending.arrival_near(p, id)) {
-    detail::fail_too_near(p, id, *other->to, other->id);
-  }
-  const auto there = state->obstacle(p);
-  if (!there || there->id == id || pending.find(there->id) != nullptr) return;
-  detail::fail_too_near(p, id, there->p, there->id);
-}
-
-// The announced places, as they are when all edits are made.
-template <int D>
-void BoxMesher<D>::Impl::require_apart(const std::vector<typename Pending::Edit>& edits) const {
-  for (const auto& edit : edits) {
-    if (edit.to) require_free(edit.id, *edit.to);
-  }
-}
-
-template <int D>
 void BoxMesher<D>::Impl::insert(PointId id, const Point<D>& p) {
   busy.require_idle();
-  if (place(id)) {
-    throw Error(ErrorCode::repeated_id, "point " + id_text(id) + " is there already", {},
-                {mesher::Feature(id)});
-  }
-  detail::check_point(p, options.domain, id);
-  const auto was = state->place(id);
-  if (!was) require_free(id, p);
-  moved |= was.has_value();
-  pending.set(id, was, unsigned_zero(p));
+  points.insert(*state, id, p);
 }
 
 // --- Lines and polygons ----------------------------------------------------------------------
@@ -217,8 +165,7 @@ void BoxMesher<D>::Impl::discard_edits() noexcept {
   pending_limits.clear();
   lines.discard();
   polygons.discard();
-  pending.clear();
-  moved = false;
+  points.clear();
 }
 
 // The points that there will be, as new ones.
@@ -226,9 +173,9 @@ template <int D>
 detail::PointEdits<D> BoxMesher<D>::Impl::all_points() const {
   Pending all(box);
   for (const GraphPoint<D>& p : state->points()) {
-    if (const auto to = place(p.id)) all.set(p.id, {}, to);
+    if (const auto to = points.place(*state, p.id)) all.set(p.id, {}, to);
   }
-  for (const auto& edit : pending.sorted()) {
+  for (const auto& edit : points.pending().sorted()) {
     if (!edit.was) all.set(edit.id, {}, edit.to);
   }
   return all.sorted();
@@ -249,14 +196,15 @@ Change<D> BoxMesher<D>::Impl::run_anew(const RunControl& control, const LastWord
 
 template <int D>
 Change<D> BoxMesher<D>::Impl::run(const RunControl& control, const LastWord& accept) {
-  if (moved) require_apart(pending.sorted());
+  points.require_apart(*state);
   if (state->ran()) {
-    const detail::Edits<D> edits{pending.sorted(), lines, polygons, pending_limits.edit(options)};
+    const detail::Edits<D> edits{points.pending().sorted(), lines, polygons,
+                                 pending_limits.edit(options)};
     if (!state->takes(edits)) return run_anew(control, accept);
     return state->propagate(edits, control, accept);
   }
   const Options<D> now = pending_options();
-  detail::Edits<D> edits{pending.sorted(), lines, polygons};
+  detail::Edits<D> edits{points.pending().sorted(), lines, polygons};
   std::unique_ptr<detail::AnyState<D>> fresh;
   if (detail::may_be_tiled(now, edits)) {
     fresh = std::make_unique<detail::TiledState<D>>(now);
@@ -324,7 +272,7 @@ void BoxMesher<D>::insert(const std::vector<PointId>& ids, const std::vector<Poi
   try {
     for (; done < ids.size(); ++done) impl_->insert(ids[done], points[done]);
   } catch (...) {
-    while (done-- > 0) impl_->pending.set(ids[done], impl_->state->place(ids[done]), {});
+    while (done-- > 0) impl_->points.take_back(*impl_->state, ids[done]);
     throw;
   }
 }
@@ -332,17 +280,13 @@ void BoxMesher<D>::insert(const std::vector<PointId>& ids, const std::vector<Poi
 template <int D>
 void BoxMesher<D>::remove(PointId id) {
   impl_->busy.require_idle();
-  impl_->require_known(id);
-  impl_->pending.set(id, impl_->state->place(id), {});
+  impl_->points.remove(*impl_->state, id);
 }
 
 template <int D>
 void BoxMesher<D>::move(PointId id, const Point<D>& point) {
   impl_->busy.require_idle();
-  impl_->require_known(id);
-  detail::check_point(point, impl_->options.domain, id);
-  impl_->moved = true;
-  impl_->pending.set(id, impl_->state->place(id), unsigned_zero(point));
+  impl_->points.move(*impl_->state, id, point);
 }
 
 template <int D>
@@ -404,10 +348,10 @@ void BoxMesher<D>::announce_to(BoxMesher& other) const {
   lines.for_each_edit([&](LineId id, const detail::LinePoints* was, const detail::LinePoints*) {
     if (was != nullptr) other.remove_line(id);
   });
-  for (const auto& edit : impl_->pending.sorted()) {  // those that go are the first
+  for (const auto& edit : impl_->points.pending().sorted()) {  // those that go are the first
     if (edit.was) edit.to ? other.move(edit.id, *edit.to) : other.remove(edit.id);
   }
-  for (const auto& edit : impl_->pending.sorted()) {
+  for (const auto& edit : impl_->points.pending().sorted()) {
     if (!edit.was) other.insert(edit.id, *edit.to);
   }
   lines.for_each_edit([&](LineId id, const detail::LinePoints*, const detail::LinePoints* is) {
@@ -522,12 +466,12 @@ std::optional<Polygon> BoxMesher<D>::polygon(PolygonId id) const {
 
 template <int D>
 std::size_t BoxMesher<D>::size() const {
-  return impl_->state->size() + static_cast<std::size_t>(impl_->pending.growth());
+  return impl_->state->size() + static_cast<std::size_t>(impl_->points.pending().growth());
 }
 
 template <int D>
 bool BoxMesher<D>::contains(PointId id) const {
-  return impl_->place(id).has_value();
+  return impl_->points.place(*impl_->state, id).has_value();
 }
 
 template <int D>

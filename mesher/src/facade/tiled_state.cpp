@@ -31,7 +31,11 @@ bool may_be_tiled(const Options<D>& options, const Edits<D>& edits) {
 
 template <int D>
 TiledState<D>::TiledState(const Options<D>& options)
-    : options_(options), box_(mesh_box(options)), features_(box_, points_) {}
+    : options_(options), peers_(alone_), box_(mesh_box(options)), features_(box_, points_) {}
+
+template <int D>
+TiledState<D>::TiledState(const Options<D>& options, Peers& peers)
+    : options_(options), peers_(peers), box_(mesh_box(options)), features_(box_, points_) {}
 
 // --- Points ----------------------------------------------------------------------------------
 
@@ -87,16 +91,22 @@ void TiledState<D>::find_levels(std::size_t threads) {
 template <int D>
 auto TiledState<D>::build(const typename TiledMesher<D>::Ask& ask)
     -> std::unique_ptr<TiledMesher<D>> {
-  const auto threads = static_cast<std::size_t>(options_.threads);
-  std::vector<Point<D>> places;
-  places.reserve(ids_.size());
-  points_.for_each([&](const Vertex<D>& v) { places.push_back(v.p); });
-  auto tiles = std::make_unique<TiledMesher<D>>(options_, box_, places, threads, threads);
-  TileEdits by_tile(tiles->size());
-  find_levels(threads);
-  points_.for_each([&](Vertex<D>& v) {
-    names_[v.self].level = v.level;
-    by_tile[tiles->territories().owner(v.p)].push_back({v.p, std::nullopt, int{v.level}});
+  std::unique_ptr<TiledMesher<D>> tiles;
+  TileEdits by_tile;
+  together(peers_, [&] {
+    const auto threads = static_cast<std::size_t>(options_.threads);
+    std::vector<Point<D>> places;
+    places.reserve(ids_.size());
+    points_.for_each([&](const Vertex<D>& v) { places.push_back(v.p); });
+    tiles = std::make_unique<TiledMesher<D>>(options_, box_, places, threads * peers_.size(),
+                                             threads, peers_);
+    by_tile.resize(tiles->size());
+    find_levels(threads);
+    points_.for_each([&](Vertex<D>& v) {
+      names_[v.self].level = v.level;
+      const auto tile = tiles->own_tile(v.p);
+      if (tile) by_tile[*tile].push_back({v.p, std::nullopt, int{v.level}});
+    });
   });
   tiles->first_run(by_tile, ask);
   return tiles;
@@ -105,28 +115,48 @@ auto TiledState<D>::build(const typename TiledMesher<D>::Ask& ask)
 template <int D>
 Change<D> TiledState<D>::first_run(Edits<D> edits, const RunControl& control,
                                    const Accept& accept) {
-  ids_.reserve(edits.points.size());
-  for (const auto& edit : edits.points) {
-    features_.insert_only(points_[add_point(edit.id, *edit.to)]);
-  }
-  const auto ask = [&, points = ids_.size()](Phase phase, std::uint64_t calls) {
-    const std::uint64_t of = phase == Phase::quadtree ? std::max<std::uint64_t>(points, calls) : 0;
-    return report(control, {phase, calls, of});
-  };
+  typename TiledMesher<D>::Ask ask;
+  together(peers_, [&] {
+    ids_.reserve(edits.points.size());
+    for (const auto& edit : edits.points) {
+      features_.insert_only(points_[add_point(edit.id, *edit.to)]);
+    }
+    ask = [&, points = ids_.size()](Phase phase, std::uint64_t calls) {
+      const std::uint64_t of =
+          phase == Phase::quadtree ? std::max<std::uint64_t>(points, calls) : 0;
+      return report(control, {phase, calls, of});
+    };
+  });
   tiles_ = build(ask);
-  const Mesh<D> mesh = tiles_->mesh();
-  stats_.vertices = mesh.vertices.size();
-  stats_.simplices = mesh.simplices.size();
+  Change<D> change;
+  together(peers_, [&] {
+    change = whole_change(mesh());
+    drop_others(change);
+  });
+  stats_.vertices = change.vertices_added.size();
+  stats_.simplices = change.simplices_added.size();
   for (std::size_t i = 0; i < 3; ++i) {
     double& seconds = i == 0   ? stats_.seconds_quadtree
                       : i == 1 ? stats_.seconds_steiner
                                : stats_.seconds_triangulate;
     seconds = tiles_->seconds()[i];
   }
-  Change<D> change = whole_change(mesh);
   change.calls.executed = tiles_->calls();
   if (accept) accept(change);
   return change;
+}
+
+// Vertices of other processes.
+template <int D>
+void TiledState<D>::drop_others(Change<D>& change) const {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < change.vertices_added.size(); ++i) {
+    if (!tiles_->own_tile(change.vertices_added[i])) continue;
+    change.vertices_added[kept] = change.vertices_added[i];
+    change.kinds_added[kept++] = change.kinds_added[i];
+  }
+  change.vertices_added.resize(kept);
+  change.kinds_added.resize(kept);
 }
 
 // --- Updates ---------------------------------------------------------------------------------
@@ -139,10 +169,12 @@ bool TiledState<D>::takes(const Edits<D>& edits) const noexcept {
 // Changes the set of points, and says what that is to the tiles.
 template <int D>
 auto TiledState<D>::make(const PointEdits<D>& edits, Moves& moves) -> TileEdits {
-  const auto owner = [&](const Point<D>& p) { return tiles_->territories().owner(p); };
   std::vector<VertexHandle> changed;
   const auto note = [&](const Vertex<D>& f) { changed.push_back(f.self); };
   TileEdits by_tile(tiles_->size());
+  const auto tell = [&](const Point<D>& p, std::optional<int> was, std::optional<int> is) {
+    if (const auto tile = tiles_->own_tile(p)) by_tile[*tile].push_back({p, was, is});
+  };
   moves.gone.reserve(edits.size());
   moves.come.reserve(edits.size());
   const auto make_room = [&] {  // for what may not fail: 3^D points a level
@@ -152,7 +184,7 @@ auto TiledState<D>::make(const PointEdits<D>& edits, Moves& moves) -> TileEdits 
   for (const auto& edit : edits) {
     if (!edit.was) continue;
     const VertexHandle h = ids_.at(edit.id);
-    by_tile[owner(points_[h].p)].push_back({points_[h].p, names_[h].level, std::nullopt});
+    tell(points_[h].p, names_[h].level, std::nullopt);
     make_room();
     features_.erase(points_[h], note);
     moves.gone.push_back(ids_.extract(edit.id));
@@ -179,7 +211,7 @@ auto TiledState<D>::make(const PointEdits<D>& edits, Moves& moves) -> TileEdits 
     if (it == ids_.end() || it->second != h) continue;  // gone
     const Vertex<D>& v = points_[h];
     if (names_[h].level == v.level) continue;
-    by_tile[owner(v.p)].push_back({v.p, names_[h].level, int{v.level}});
+    tell(v.p, names_[h].level, int{v.level});
     moves.levels.emplace_back(h, std::exchange(names_[h].level, int{v.level}));
   }
   return by_tile;
@@ -200,30 +232,45 @@ void TiledState<D>::take_back(Moves moves) {
 }
 
 template <int D>
+TiledState<D>::Growth::Growth(const Change<D>& change) {
+  const auto more = [](const auto& come, const auto& gone) {
+    return static_cast<std::ptrdiff_t>(come.size()) - static_cast<std::ptrdiff_t>(gone.size());
+  };
+  vertices = more(change.vertices_added, change.vertices_removed);
+  simplices = more(change.simplices_added, change.simplices_removed);
+}
+
+template <int D>
 Change<D> TiledState<D>::propagate(const Edits<D>& edits, const RunControl& control,
                                    const Accept& accept) {
   SAC_EXPECTS(takes(edits));
   Moves moves;
   Change<D> change;
-  const auto ask = [&](Phase phase, std::uint64_t calls) {
-    return report(control, {phase, calls, 0});
-  };
+  std::optional<Growth> growth;  // of this process's part, before `accept` makes more of it
   const std::uint64_t before = tiles_->calls();
+  typename TiledMesher<D>::Ask ask;
+  std::function<void(TileChanges&)> last;
+  TileEdits by_tile;
   try {
-    const TileEdits by_tile = make(edits.points, moves);
-    tiles_->update(by_tile, ask, [&](TileChanges& changes) {
-      change = change_of(changes);
-      change.calls.executed = tiles_->calls() - before;
-      if (accept) accept(change);
+    together(peers_, [&] {
+      ask = [&](Phase phase, std::uint64_t calls) { return report(control, {phase, calls, 0}); };
+      last = [&](TileChanges& changes) {
+        together(peers_, [&] { change = change_of(changes); });
+        growth.emplace(change);
+        change.calls.executed = tiles_->calls() - before;
+        if (accept) accept(change);
+      };
+      by_tile = make(edits.points, moves);
     });
+    tiles_->update(by_tile, ask, last);
   } catch (...) {
-    take_back(std::move(moves));
+    together(peers_, [&] { take_back(std::move(moves)); });
     if (tiles_->is_broken()) tiles_ = build({});  // the mesh is a function of the points
     throw;
   }
   for (const auto& node : moves.gone) points_.release(points_[node.mapped()]);
-  stats_.vertices += change.vertices_added.size() - change.vertices_removed.size();
-  stats_.simplices += change.simplices_added.size() - change.simplices_removed.size();
+  stats_.vertices += static_cast<std::size_t>(growth->vertices);
+  stats_.simplices += static_cast<std::size_t>(growth->simplices);
   return change;
 }
 
@@ -264,6 +311,14 @@ Change<D> TiledState<D>::change_of(TileChanges& changes) const {
 }
 
 // --- Between updates -------------------------------------------------------------------------
+
+template <int D>
+Mesh<D> TiledState<D>::mesh() const {
+  return tiles_->mesh([this](const Point<D>& p) {
+    const Vertex<D>* v = features_.obstacle(p);
+    return v != nullptr && v->p == p;
+  });
+}
 
 template <int D>
 MeshStats TiledState<D>::stats() const {

@@ -1,4 +1,8 @@
 // The state of a mesher of points in tiles: which point is whose, how crowded each is, the tiles.
+//
+// Where several processes have tiles of one mesh, each has such a state with all points, but its
+// own tiles alone, and all do the same: what is asked of the mesh is then about the part of this
+// process.
 #pragma once
 
 #include <memory>
@@ -24,6 +28,8 @@ class TiledState final : public AnyState<D> {
 
   /// Throws: Error(bad_option).
   explicit TiledState(const Options<D>& options);
+  /// With options.threads tiles in each process. `peers` must outlive it. Throws: likewise.
+  TiledState(const Options<D>& options, Peers& peers);
 
   Change<D> first_run(Edits<D> edits, const RunControl& control, const Accept& accept) override;
   /// Points alone.
@@ -32,7 +38,8 @@ class TiledState final : public AnyState<D> {
                       const Accept& accept) override;
 
   [[nodiscard]] bool ran() const noexcept override { return tiles_ != nullptr; }
-  [[nodiscard]] Mesh<D> mesh() const override { return tiles_->mesh(); }
+  /// The simplices of this process, and their vertices.
+  [[nodiscard]] Mesh<D> mesh() const override;
   [[nodiscard]] MeshStats stats() const override;
   [[nodiscard]] const sac::Engine& engine() const noexcept override {
     return (*tiles_)[0].engine();
@@ -64,6 +71,13 @@ class TiledState final : public AnyState<D> {
     std::vector<std::pair<VertexHandle, std::optional<int>>> levels;  // as they were
   };
 
+  // What an update changes in the sizes.
+  struct Growth {
+    std::ptrdiff_t vertices = 0, simplices = 0;
+    explicit Growth(const Change<D>& change);
+  };
+
+  void drop_others(Change<D>& change) const;
   [[nodiscard]] std::unique_ptr<TiledMesher<D>> build(const typename TiledMesher<D>::Ask& ask);
   void find_levels(std::size_t threads);
   VertexHandle add_point(PointId id, const Point<D>& p);
@@ -72,6 +86,8 @@ class TiledState final : public AnyState<D> {
   [[nodiscard]] Change<D> change_of(TileChanges& changes) const;
 
   Options<D> options_;
+  Alone alone_;
+  Peers& peers_;
   MeshBox<D> box_;
   VertexPool<D> points_;
   FeatureTree<D> features_;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <map>
+#include <mutex>
 #include <numeric>
 
 #include "mesh/canonical.hpp"
@@ -13,18 +15,71 @@
 
 namespace mesher::detail {
 
+namespace {
+
+// As many as they need: those of one kind have no other's parts.
+template <int D>
+void pack_message(std::uint32_t from, const Message<D>& m, Packer& to) {
+  using Kind = typename Message<D>::Kind;
+  const auto put_turn = [&](const Turn<D>& turn) {
+    to.put(turn.stage), to.put(turn.rank), to.put(turn.order), to.put(turn.p);
+  };
+  to.put(from), to.put(m.to), to.put(m.kind);
+  put_turn(m.turn());
+  if (m.kind == Kind::ask || m.kind == Kind::end) {
+    to.put(m.look.p), to.put(m.look.radius);
+  } else {
+    to.put(m.birth.p), to.put(std::int32_t{m.birth.bucket});
+  }
+}
+
+template <int D>
+std::pair<std::uint32_t, Message<D>> unpack_message(Unpacker& bytes) {
+  using Kind = typename Message<D>::Kind;
+  const auto from = bytes.take<std::uint32_t>();
+  Message<D> m{};
+  m.to = bytes.take<std::uint32_t>();
+  m.kind = bytes.take<Kind>();
+  Turn<D> turn;
+  turn.stage = bytes.take<Stage>();
+  turn.rank = bytes.take<std::uint32_t>();
+  turn.order = bytes.take<std::uint64_t>();
+  turn.p = bytes.take<Point<D>>();
+  const auto p = bytes.take<Point<D>>();
+  if (m.kind == Kind::ask || m.kind == Kind::end) {
+    m.look = {p, bytes.take<double>(), turn};
+  } else {
+    m.birth = {p, bytes.take<std::int32_t>(), turn};
+  }
+  return {from, m};
+}
+
+}  // namespace
+
 template <int D>
 TiledMesher<D>::TiledMesher(const Options<D>& options, const MeshBox<D>& box,
                             const std::vector<Point<D>>& places, std::size_t tiles,
-                            std::size_t threads)
+                            std::size_t threads, Peers& peers)
     : options_(options),
       threads_(threads),
+      peers_(peers),
       all_(places, tiles),
-      out_(all_.size()),
-      waiting_(all_.size()) {
-  for (std::size_t t = 0; t < all_.size(); ++t) {
+      process_of_(all_.size()),
+      in_(all_.size()),
+      to_others_(peers.size()),
+      views_(peers.size()) {
+  const auto first_of = [&](std::size_t process) { return all_.size() * process / peers.size(); };
+  for (std::size_t k = 0; k < peers.size(); ++k) {
+    std::fill(process_of_.begin() + static_cast<std::ptrdiff_t>(first_of(k)),
+              process_of_.begin() + static_cast<std::ptrdiff_t>(first_of(k + 1)),
+              static_cast<std::uint32_t>(k));
+  }
+  first_ = first_of(peers.self());
+  for (std::size_t t = first_; t < first_of(peers.self() + 1); ++t) {
     tiles_.push_back(std::make_unique<TileMesher<D>>(options, box, all_, t));
   }
+  out_.resize(tiles_.size());
+  waiting_.resize(tiles_.size());
 }
 
 // --- Threads ---------------------------------------------------------------------------------
@@ -92,100 +147,213 @@ void TiledMesher<D>::unwatch() noexcept {
   stops_ = false;
 }
 
+// --- Processes -------------------------------------------------------------------------------
+
+// A part of what this process does until all agree; nothing if an earlier part has failed.
+template <int D>
+template <class Act>
+void TiledMesher<D>::attempt(Act&& act) noexcept {
+  if (failure_) return;
+  try {
+    act();
+  } catch (...) {
+    failure_ = std::current_exception();
+  }
+}
+
+template <int D>
+void TiledMesher<D>::agree(Peers::Values values) {
+  detail::agree(peers_, std::exchange(failure_, nullptr), values);
+}
+
+template <int D>
+std::uint64_t TiledMesher<D>::least_of(std::uint64_t value) {
+  peers_.least({&value, 1});
+  return value;
+}
+
 // --- Rounds ----------------------------------------------------------------------------------
 
 template <int D>
-void TiledMesher<D>::exchange() {
+void TiledMesher<D>::sort_messages() {
   is_exact_ = false;
   for (std::size_t t = 0; t < tiles_.size(); ++t) {
     for (const Message<D>& m : out_[t]) waiting_[t].add(m);
     out_[t].clear();
   }
-  std::optional<typename Outbox<D>::Time> first;
-  for (const auto& waiting : waiting_) {
-    if (!waiting.is_empty() && (!first || waiting.first() < *first)) first = waiting.first();
-  }
-  if (first) {
-    ++exchanges_.rounds;
-    std::uint64_t messages = 0;
-    for (std::size_t t = 0; t < tiles_.size(); ++t) {
-      waiting_[t].send_until(*first, [&](const Message<D>& m) { out_[t].push_back(m); });
-      messages += out_[t].size();
-    }
-    exchanges_.messages += messages;
-    for_each_tile(messages / 16, [&](std::size_t t) {
-      for (std::size_t from = 0; from < tiles_.size(); ++from) tiles_[t]->receive(from, out_[from]);
-    });
-    for (auto& out : out_) out.clear();
-  }
   is_exact_ = true;
+}
+
+template <int D>
+auto TiledMesher<D>::agree_on_next() -> Next {
+  constexpr std::uint64_t kNone = ~std::uint64_t{0};
+  std::array<std::uint64_t, 2> next{kNone, 1};
+  for (const auto& waiting : waiting_) {
+    if (waiting.is_empty()) continue;
+    const auto [stage, bucket] = waiting.first();
+    next[0] = std::min(next[0], static_cast<std::uint64_t>(stage) << 32 | bucket);
+  }
+  for (const auto& tile : tiles_) {
+    if (tile->is_dirty()) next[1] = 0;
+  }
+  agree(next);
+  const Time first{static_cast<Stage>(next[0] >> 32), static_cast<std::uint32_t>(next[0])};
+  return {next[0] == kNone ? std::nullopt : std::optional(first), next[1] == 0};
+}
+
+// What a tile says until then, to whom it concerns.
+template <int D>
+void TiledMesher<D>::post(std::size_t tile, const Time& last) {
+  const auto from = static_cast<std::uint32_t>(first_ + tile);
+  waiting_[tile].send_until(last, [&](const Message<D>& m) {
+    ++exchanges_.messages;
+    const std::size_t process = process_of_[m.to];
+    if (process == peers_.self()) return in_[from].push_back(m);
+    ++exchanges_.messages_out;
+    pack_message(from, m, to_others_[process]);
+  });
+}
+
+// What fails on the way loses messages.
+template <int D>
+void TiledMesher<D>::exchange(const Time& last) {
+  ++exchanges_.rounds;
+  is_exact_ = false;
+  const std::uint64_t before = exchanges_.messages;
+  attempt([&] {
+    for (std::size_t t = 0; t < tiles_.size(); ++t) post(t, last);
+  });
+  std::uint64_t messages = exchanges_.messages - before;
+  if (!peers_.is_alone()) {
+    std::uint64_t bytes = 0;
+    for (std::size_t k = 0; k < views_.size(); ++k) {
+      if (failure_) to_others_[k].clear();  // the last message may not be whole
+      views_[k] = to_others_[k].bytes();
+      bytes += views_[k].size();
+    }
+    exchanges_.bytes_out += bytes;
+    exchanges_.most_bytes_out = std::max(exchanges_.most_bytes_out, bytes);
+    const std::vector<Bytes> came = peers_.exchange(views_);
+    for (Packer& parcel : to_others_) parcel.clear();
+    attempt([&] {
+      for (const Bytes& parcel : came) {
+        for (Unpacker rest(parcel); !rest.is_empty(); ++messages) {
+          const auto [from, m] = unpack_message<D>(rest);
+          in_[from].push_back(m);
+        }
+      }
+    });
+  }
+  attempt([&] {
+    for_each_tile(messages / 16, [&](std::size_t t) {
+      for (std::size_t from = 0; from < in_.size(); ++from) tiles_[t]->receive(from, in_[from]);
+    });
+    for (auto& in : in_) in.clear();
+    is_exact_ = true;
+  });
 }
 
 // Messages that wait are sent first.
 template <int D>
 void TiledMesher<D>::settle(Changes* changes) {
+  while (true) {
+    attempt([&] { sort_messages(); });
+    const Next next = agree_on_next();
+    if (!next.first && !next.is_dirty) return;
+    if (next.first) exchange(*next.first);
+    attempt([&] { run_dirty(changes); });
+  }
+}
+
+template <int D>
+void TiledMesher<D>::run_dirty(Changes* changes) {
   std::vector<std::size_t> dirty;
   std::uint64_t orders = 0;
+  for (std::size_t t = 0; t < tiles_.size(); ++t) {
+    if (!tiles_[t]->is_dirty()) continue;
+    dirty.push_back(t);
+    orders += tiles_[t]->orders();
+  }
+  if (dirty.empty()) return;
+  if (stops_) throw sac::Cancelled();
   std::vector<Changes> all(changes != nullptr ? tiles_.size() : 0);
-  while (true) {
-    exchange();
-    dirty.clear();
-    orders = 0;
-    for (std::size_t t = 0; t < tiles_.size(); ++t) {
-      if (!tiles_[t]->is_dirty()) continue;
-      dirty.push_back(t);
-      orders += tiles_[t]->orders();
-    }
-    if (dirty.empty()) return;
-    if (stops_) throw sac::Cancelled();
-    std::atomic<bool> lost = false;
-    const auto act = [&](std::size_t t) {
-      tiles_[t]->propagate();
-      try {
-        out_[t] = tiles_[t]->collect(changes != nullptr ? &all[t] : nullptr);
-      } catch (...) {
-        lost = true;
-        throw;
-      }
-    };
+  std::atomic<bool> lost = false;
+  const auto act = [&](std::size_t t) {
+    tiles_[t]->propagate();
     try {
-      run(dirty, orders, act);
+      out_[t] = tiles_[t]->collect(changes != nullptr ? &all[t] : nullptr);
     } catch (...) {
-      if (lost) is_exact_ = false;
+      lost = true;
       throw;
     }
-    if (changes == nullptr) continue;
-    for (const std::size_t t : dirty) {
-      const auto append = [](auto& to, auto& from) {
-        to.insert(to.end(), from.begin(), from.end());
-        from.clear();
-      };
-      append(changes->vertices, all[t].vertices);
-      append(changes->simplices_come, all[t].simplices_come);
-      append(changes->simplices_gone, all[t].simplices_gone);
-    }
+  };
+  try {
+    run(dirty, orders, act);
+  } catch (...) {
+    if (lost) is_exact_ = false;
+    throw;
   }
+  if (changes == nullptr) return;
+  for (const std::size_t t : dirty) {
+    const auto append = [](auto& to, const auto& from) {
+      to.insert(to.end(), from.begin(), from.end());
+    };
+    append(changes->vertices, all[t].vertices);
+    append(changes->simplices_come, all[t].simplices_come);
+    append(changes->simplices_gone, all[t].simplices_gone);
+  }
+}
+
+// The first of all, by turn.
+template <int D>
+void TiledMesher<D>::require_no_fault() {
+  std::optional<std::pair<Turn<D>, Error>> first;
+  attempt([&] {
+    for (const auto& tile : tiles_) {
+      auto fault = tile->border().first_fault();
+      if (fault && (!first || fault->first < first->first)) first = std::move(fault);
+    }
+  });
+  std::uint64_t is_sound = first ? 0 : 1;
+  agree({&is_sound, 1});
+  if (is_sound != 0 || (peers_.is_alone() && !first)) return;
+  if (peers_.is_alone()) throw first->second;
+  Packer mine;
+  attempt([&] {
+    if (!first) return;
+    mine.put(first->first);
+    pack(first->second, mine);
+  });
+  agree();
+  first.reset();
+  for (const Bytes& told : peers_.gather(mine.bytes())) {
+    if (told.empty()) continue;
+    Unpacker fault(told);
+    const auto turn = fault.take<Turn<D>>();
+    if (!first || turn < first->first) first = {turn, unpack_error(fault)};
+  }
+  throw first->second;
 }
 
 // What one mesher for all would have refused.
 template <int D>
-void TiledMesher<D>::require_all() const {
-  std::optional<std::pair<Turn<D>, Error>> first;
-  for (const auto& tile : tiles_) {
-    auto fault = tile->border().first_fault();
-    if (fault && (!first || fault->first < first->first)) first = std::move(fault);
-  }
-  if (first) throw first->second;
-  if (options_.max_vertices != 0 && vertices() > options_.max_vertices) {
-    throw tiles_.front()->world().too_many();
-  }
+void TiledMesher<D>::require_all() {
+  require_no_fault();
+  if (options_.max_vertices == 0) return;
+  std::uint64_t all = vertices();
+  peers_.sum({&all, 1});
+  if (all <= options_.max_vertices) return;
+  attempt([&] {
+    if (!tiles_.empty()) throw tiles_.front()->world().too_many();
+  });
+  agree();
 }
 
 // --- Runs ------------------------------------------------------------------------------------
 
 template <int D>
 void TiledMesher<D>::first_run(const Edits& edits, const Ask& ask) {
-  watch(ask);
+  attempt([&] { watch(ask); });
   auto mark = std::chrono::steady_clock::now();
   const auto begin = [&](Phase phase) {
     phase_ = phase;
@@ -197,9 +365,11 @@ void TiledMesher<D>::first_run(const Edits& edits, const Ask& ask) {
     mark = now;
   };
   const auto run_all = [&](std::uint64_t calls, auto&& part) {
-    for_each_tile(calls, [&](std::size_t t) {
-      part(*tiles_[t], t);
-      out_[t] = tiles_[t]->collect(nullptr);
+    attempt([&] {
+      for_each_tile(calls, [&](std::size_t t) {
+        part(*tiles_[t], t);
+        out_[t] = tiles_[t]->collect(nullptr);
+      });
     });
     settle(nullptr);
     require_all();
@@ -212,16 +382,17 @@ void TiledMesher<D>::first_run(const Edits& edits, const Ask& ask) {
   });
   end();
   begin(Phase::steiner);
-  for_each_tile(kMany, [&](std::size_t t) { tiles_[t]->begin_questions(); });
-  const auto next_part = [&](int part) {
-    int next = tiles_[0]->parts();
-    for (const auto& tile : tiles_) next = std::min(next, tile->next_part(part));
-    return next;
+  attempt([&] { for_each_tile(kMany, [&](std::size_t t) { tiles_[t]->begin_questions(); }); });
+  const auto least = [&](auto&& of_tile) {
+    std::uint64_t least = ~std::uint64_t{0};  // of no tile
+    for (const auto& tile : tiles_) least = std::min<std::uint64_t>(least, of_tile(*tile));
+    return static_cast<int>(least_of(least));
   };
-  const int parts = tiles_[0]->parts();
+  const int parts = least([](const TileMesher<D>& tile) { return tile.parts(); });
   for (int done = 0; done < parts;) {  // those in which nothing waits run with the next one
     const int first = done;
-    done = std::min(next_part(first) + 1, parts);
+    done = std::min(least([&](const TileMesher<D>& tile) { return tile.next_part(first); }) + 1,
+                    parts);
     ++exchanges_.horizons;
     std::uint64_t calls = 0;
     for (const auto& tile : tiles_) calls += tile->waiting_in(done - 1);
@@ -246,12 +417,15 @@ void TiledMesher<D>::update(const Edits& edits, const Ask& ask,
                             const std::function<void(Changes&)>& last) {
   require_sound();
   phase_ = Phase::update;
-  watch(ask);
+  attempt([&] { watch(ask); });
+  agree();
   is_exact_ = false;
   Changes changes;
   try {
-    for (std::size_t t = 0; t < tiles_.size(); ++t) tiles_[t]->edit(edits[t]);
-    is_exact_ = true;
+    attempt([&] {
+      for (std::size_t t = 0; t < tiles_.size(); ++t) tiles_[t]->edit(edits[t]);
+      is_exact_ = true;
+    });
     settle(&changes);
     require_all();
     last(changes);
@@ -267,9 +441,11 @@ void TiledMesher<D>::update(const Edits& edits, const Ask& ask,
 template <int D>
 void TiledMesher<D>::take_back(const Edits& edits) noexcept {
   broken_ = true;
-  if (!is_exact_) return;
+  failure_ = nullptr;
+  if (least_of(is_exact_ ? 1 : 0) == 0) return;
   unwatch();
-  try {
+  attempt([&] {
+    is_exact_ = false;
     for (std::size_t t = 0; t < tiles_.size(); ++t) {
       std::vector<typename TileMesher<D>::Edit> inverse;
       for (auto it = edits[t].rbegin(); it != edits[t].rend(); ++it) {
@@ -277,6 +453,9 @@ void TiledMesher<D>::take_back(const Edits& edits) noexcept {
       }
       tiles_[t]->edit(inverse);
     }
+    is_exact_ = true;
+  });
+  try {
     settle(nullptr);
     broken_ = false;
   } catch (...) {  // it stays broken
@@ -309,6 +488,29 @@ struct TiledMesher<D>::Part {
   std::uint32_t first = 0;  // the number of its first vertex
 };
 
+// Vertices of other processes, numbered behind all of this one as they are met; for all threads.
+template <int D>
+struct TiledMesher<D>::Others {
+  const IsInput& is_input;
+  std::uint32_t first;
+  std::mutex mutex{};
+  std::map<Point<D>, std::uint32_t> numbers{};
+  std::vector<Point<D>> places{};
+  std::vector<VertexKind> kinds{};
+
+  std::uint32_t number_of(const Vertex<D>& v) {
+    const std::scoped_lock lock(mutex);
+    const auto [it, is_new] =
+        numbers.try_emplace(v.p, first + static_cast<std::uint32_t>(places.size()));
+    if (is_new) {
+      const VertexKind inner = is_input(v.p) ? VertexKind::input : VertexKind::steiner;
+      places.push_back(v.p);
+      kinds.push_back(v.boundary ? VertexKind::boundary : inner);
+    }
+    return it->second;
+  }
+};
+
 template <int D>
 void TiledMesher<D>::number_vertices(std::size_t t, Part& part) const {
   const auto& pool = tiles_[t]->world().vertices.pool();
@@ -316,7 +518,7 @@ void TiledMesher<D>::number_vertices(std::size_t t, Part& part) const {
   part.places.reserve(tiles_[t]->own_vertices());
   part.kinds.reserve(tiles_[t]->own_vertices());
   pool.for_each([&](const Vertex<D>& v) {
-    if (!v.alive || !all_.owns(t, v.p)) return;
+    if (!v.alive || !all_.owns(first_ + t, v.p)) return;
     part.number[v.self] = static_cast<std::uint32_t>(part.places.size());
     part.places.push_back(v.p);
     part.kinds.push_back(v.kind());
@@ -325,17 +527,20 @@ void TiledMesher<D>::number_vertices(std::size_t t, Part& part) const {
 
 // Requires: the numbers of all tiles' own vertices, which stay as they are.
 template <int D>
-void TiledMesher<D>::list_simplices(std::size_t t, std::vector<Part>& parts) const {
+void TiledMesher<D>::list_simplices(std::size_t t, std::vector<Part>& parts, Others& others) const {
   const auto& vertices = tiles_[t]->world().vertices;
   const auto& pool = vertices.pool();
   Part& part = parts[t];
   std::vector<std::uint32_t> foreign(part.number.size(), kUnnumbered);
+  const auto number_in = [&](std::size_t tile, const Point<D>& p) {
+    const VertexHandle there = tiles_[tile]->world().vertices.tree().find(p)->self;
+    return parts[tile].first + parts[tile].number[there];
+  };
   const auto number_of = [&](VertexHandle h) {
     if (part.number[h] != kUnnumbered) return part.first + part.number[h];
     if (foreign[h] == kUnnumbered) {
-      const std::size_t owner = all_.owner(pool[h].p);
-      const VertexHandle there = tiles_[owner]->world().vertices.tree().find(pool[h].p)->self;
-      foreign[h] = parts[owner].first + parts[owner].number[there];
+      const auto owner = own_tile(pool[h].p);
+      foreign[h] = owner ? number_in(*owner, pool[h].p) : others.number_of(pool[h]);
     }
     return foreign[h];
   };
@@ -349,7 +554,7 @@ void TiledMesher<D>::list_simplices(std::size_t t, std::vector<Part>& parts) con
 }
 
 template <int D>
-Mesh<D> TiledMesher<D>::mesh() const {
+Mesh<D> TiledMesher<D>::mesh(const IsInput& is_input) const {
   require_sound();
   std::vector<Part> parts(tiles_.size());
   on_threads(tiles_.size(), [&](std::size_t t) { number_vertices(t, parts[t]); });
@@ -362,7 +567,10 @@ Mesh<D> TiledMesher<D>::mesh() const {
     places.insert(places.end(), part.places.begin(), part.places.end());
     kinds.insert(kinds.end(), part.kinds.begin(), part.kinds.end());
   }
-  on_threads(tiles_.size(), [&](std::size_t t) { list_simplices(t, parts); });
+  Others others{is_input, static_cast<std::uint32_t>(places.size())};
+  on_threads(tiles_.size(), [&](std::size_t t) { list_simplices(t, parts, others); });
+  places.insert(places.end(), others.places.begin(), others.places.end());
+  kinds.insert(kinds.end(), others.kinds.begin(), others.kinds.end());
   return canonical<D>(places, kinds, 0, {}, [&](auto&& visit) {
     for (const Part& part : parts)
       std::for_each(part.simplices.begin(), part.simplices.end(), visit);

@@ -1,5 +1,10 @@
-// The tiles of a mesh, on threads: they run at once, exchange messages, and run again until there
-// are none.
+// The tiles of a mesh, on threads and in processes: they run at once, exchange messages, and run
+// again until there are none.
+//
+// A process has some of the tiles, one after the other. Between the steps of a round all processes
+// agree (peers.hpp) on what comes next: which messages, whether a tile has anything to run, which
+// bucket, and whether one of them has failed. So each of them calls the same functions, in the same
+// order, with the same options and the same places.
 //
 // A first run settles bucket after bucket: births without what surrounds them would have others
 // that nobody needs.
@@ -8,9 +13,11 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -18,6 +25,7 @@
 
 #include "borders/territory.hpp"
 #include "mesher/meshing.hpp"
+#include "tiles/peers.hpp"
 #include "tiles/tile_mesher.hpp"
 
 namespace mesher::detail {
@@ -27,6 +35,10 @@ struct Exchanges {
   std::uint64_t rounds = 0;
   std::uint64_t messages = 0;
   std::uint64_t horizons = 0;  // of a first run
+  // From this process to others.
+  std::uint64_t messages_out = 0;
+  std::uint64_t bytes_out = 0;
+  std::uint64_t most_bytes_out = 0;  // in a round
 };
 
 /// The messages of a tile that wait: those of early turns are sent first, since what a tile says of
@@ -82,34 +94,47 @@ class Outbox {
 template <int D>
 class TiledMesher {
  public:
-  using Edits = std::vector<std::vector<typename TileMesher<D>::Edit>>;  // by tile
+  using Edits = std::vector<std::vector<typename TileMesher<D>::Edit>>;  // by tile of this process
   using Changes = typename TileMesher<D>::Changes;
 
-  /// `places`: of the input's points, which say where the cuts are.
+  /// `places`: of the input's points, which say where the cuts are. `tiles`: of all processes, as
+  /// many or fewer; a process may have none. `peers` must outlive it.
   TiledMesher(const Options<D>& options, const MeshBox<D>& box, const std::vector<Point<D>>& places,
-              std::size_t tiles, std::size_t threads);
+              std::size_t tiles, std::size_t threads, Peers& peers);
 
   /// `control` is asked, on the thread of the caller, while something runs. `ask(phase, calls)`:
   /// false if the run shall stop.
   using Ask = std::function<bool(Phase, std::uint64_t)>;
-  /// Throws: Error, sac::Cancelled, std::bad_alloc, what `ask` throws: good for nothing then.
+  /// Throws: Error, sac::Cancelled, std::bad_alloc, what `ask` throws: good for nothing then. What
+  /// is thrown in one process is thrown in all, as by agree().
   void first_run(const Edits& edits, const Ask& ask);
-  /// Makes the edits; last(changes) is called when all agree. Throws: likewise, and what `last`
-  /// throws: the edits are then taken back, by a run of their inverses. If that fails, too, every
-  /// further update throws sac::UsageError.
+  /// Makes the edits; last(changes) is called, with those of this process, when all agree; it
+  /// throws in all processes or in none. Throws: likewise, and what `last` throws: the edits are
+  /// then taken back, by a run of their inverses. If that fails, too, every further update throws
+  /// sac::UsageError.
   void update(const Edits& edits, const Ask& ask, const std::function<void(Changes&)>& last);
 
+  /// Tiles of this process.
   [[nodiscard]] std::size_t size() const noexcept { return tiles_.size(); }
-  [[nodiscard]] const Territories<D>& territories() const noexcept { return all_; }
   [[nodiscard]] const TileMesher<D>& operator[](std::size_t t) const noexcept { return *tiles_[t]; }
+  /// Which of them has the place; nothing: another process.
+  [[nodiscard]] std::optional<std::size_t> own_tile(const Point<D>& p) const noexcept {
+    const std::size_t tile = all_.owner(p) - first_;  // huge, if it is below
+    return tile < tiles_.size() ? std::optional(tile) : std::nullopt;
+  }
   [[nodiscard]] const Exchanges& exchanges() const noexcept { return exchanges_; }
-  [[nodiscard]] Mesh<D> mesh() const;
+  /// The simplices of the tiles of this process, and their vertices. `is_input(p)`: of a vertex
+  /// that is another process's and not on the boundary, whether it is a point of the input.
+  using IsInput = std::function<bool(const Point<D>&)>;
+  [[nodiscard]] Mesh<D> mesh(const IsInput& is_input) const;
+  /// In the territories of this process.
   [[nodiscard]] std::size_t vertices() const noexcept;
   /// Of the phases of the first run.
   [[nodiscard]] const std::array<double, 3>& seconds() const noexcept { return seconds_; }
   /// Calls that have run.
   [[nodiscard]] std::uint64_t calls() const noexcept;
-  /// TileMesher::fault_with of all pairs: empty if the mesh is certain to be that of one mesher.
+  /// TileMesher::fault_with of all pairs in this process: empty if, of one process, the mesh is
+  /// certain to be that of one mesher.
   [[nodiscard]] std::string certificate_fault() const;
   /// Whether an update could not be taken back: then only the end is left.
   [[nodiscard]] bool is_broken() const noexcept { return broken_; }
@@ -122,23 +147,45 @@ class TiledMesher {
   void run(const std::vector<std::size_t>& which, std::uint64_t work, Act&& act);
   void watch(const Ask& ask);
   void unwatch() noexcept;
-  void exchange();
+  template <class Act>
+  void attempt(Act&& act) noexcept;
+  void agree(Peers::Values values = {});
+  [[nodiscard]] std::uint64_t least_of(std::uint64_t value);
+  using Time = typename Outbox<D>::Time;
+  struct Next {                 // of all processes
+    std::optional<Time> first;  // of the messages that wait
+    bool is_dirty;
+  };
+  [[nodiscard]] Next agree_on_next();
+  void sort_messages();
+  void post(std::size_t tile, const Time& last);
+  void exchange(const Time& last);
   void settle(Changes* changes);
-  void require_all() const;
+  void run_dirty(Changes* changes);
+  void require_no_fault();
+  void require_all();
   static constexpr std::uint32_t kUnnumbered = ~std::uint32_t{0};
   struct Part;
+  struct Others;
   void number_vertices(std::size_t t, Part& part) const;
-  void list_simplices(std::size_t t, std::vector<Part>& parts) const;
+  void list_simplices(std::size_t t, std::vector<Part>& parts, Others& others) const;
   void require_sound() const;
   void take_back(const Edits& edits) noexcept;
 
   Options<D> options_;
   std::size_t threads_;
+  Peers& peers_;
   Territories<D> all_;
-  std::vector<std::unique_ptr<TileMesher<D>>> tiles_;
-  std::vector<std::vector<Message<D>>> out_;  // by tile: what it has said last
-  std::vector<Outbox<D>> waiting_;            // by tile: what it has said before
+  std::size_t first_ = 0;                              // tile of this process
+  std::vector<std::uint32_t> process_of_;              // by tile of all
+  std::vector<std::unique_ptr<TileMesher<D>>> tiles_;  // of this process
+  std::vector<std::vector<Message<D>>> out_;           // by its tile: what it has said last
+  std::vector<Outbox<D>> waiting_;                     // by its tile: what it has said before
+  std::vector<std::vector<Message<D>>> in_;  // by tile of all: what it says to this process
+  std::vector<Packer> to_others_;            // by process
+  Peers::Views views_;                       // of these
   Exchanges exchanges_;
+  std::exception_ptr failure_;  // of this process, since all agreed last
   std::array<double, 3> seconds_{};
   bool broken_ = false;
   bool is_exact_ = true;  // what tiles know of each other is what they have said

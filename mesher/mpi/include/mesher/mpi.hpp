@@ -1,0 +1,115 @@
+// A mesh of points that the ranks of a communicator keep together. It follows edits, and is that of
+// one process, to the last bit, whatever the number of ranks.
+//
+// Example:
+//   mesher::MpiMesher<2> m(MPI_COMM_WORLD, {.domain = {{0, 0}, {1, 1}}});
+//   if (rank == 3) m.insert(mesher::PointId{1}, {0.25, 0.5});
+//   m.update();                            // of all ranks
+//   solve(m.own_mesh());                   // the part of this rank
+//   mesher::write_mesh(m, "mesh.pvtu");    // a piece for each rank
+//
+// What is divided are the simplices and the trace by which the mesh follows edits, which is 10 to
+// 20 times larger than the points. The points themselves are held by all ranks.
+//
+// Functions "of all" are called by all ranks, in the same order, with equal arguments; each comes
+// to its end in all, and throws in all or in none: an Error of one rank is thrown in all. MPI is
+// used on the calling thread alone.
+//
+// Guarantees, beside those of a Mesher (mesher.hpp):
+//   (1) the mesh and its changes are functions of the points and the options alone: not of the
+//       ranks, or of which of them announced what;
+//   (2) an update that one rank stops, or that fails in one, leaves the mesh in all;
+//   (3) each simplex is on exactly one rank.
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mesher/graph.hpp"
+#include "mesher/mesher.hpp"
+
+namespace mesher {
+
+/// Which change update() returns: on each rank that of its own part, or the whole change on rank 0
+/// and nothing on others, or on all ranks. (The first change is the whole mesh.)
+enum class Told : std::uint8_t { own, first, all };
+
+/// What ranks have told each other since the first update began. Sums over ranks, unless said
+/// otherwise.
+struct MpiCounts {
+  std::uint64_t rounds = 0;          ///< of each rank: exchanges of messages
+  std::uint64_t horizons = 0;        ///< of each rank: steps of the first update
+  std::uint64_t messages = 0;        ///< from one rank to another
+  std::uint64_t bytes = 0;           ///< of these
+  std::uint64_t most_bytes = 0;      ///< from one rank, in one round
+  std::uint64_t seen = 0;            ///< vertices that came to be known beyond their tile
+  std::uint64_t vertices = 0;        ///< of the mesh
+  std::uint64_t least_vertices = 0;  ///< of a rank
+  std::uint64_t most_vertices = 0;   ///< of a rank
+};
+
+/// D is 2 or 3.
+template <int D>
+class MpiMesher {
+ public:
+  /// Of all, with equal options. Each rank has options.threads threads, and as many tiles.
+  /// Requires: MPI is initialized; for several threads with MPI_THREAD_FUNNELED.
+  /// Throws: Error(bad_option): as Mesher; for options that differ between ranks; for limits of
+  /// size, min_dihedral, record_weights, and another rule than radius_edge.
+  MpiMesher(MPI_Comm communicator, const Options<D>& options);
+  MpiMesher(MpiMesher&&) noexcept;
+  MpiMesher& operator=(MpiMesher&&) noexcept;
+  /// Of all, before MPI_Finalize.
+  ~MpiMesher();
+
+  /// Announces an edit, on any rank, for the next update(), which judges it.
+  void insert(PointId id, const Point<D>& point);
+  void remove(PointId id);
+  void move(PointId id, const Point<D>& point);
+  /// Discards the edits that this rank has announced.
+  void discard_edits() noexcept;
+
+  /// Of all; `control` may differ. Makes the edits of all ranks: by rank, and as announced there;
+  /// at the end no two points may be at one place. Throws: Error as the functions of a Mesher of
+  /// the same names, and its update(); what control.progress throws, on other ranks
+  /// std::runtime_error with its message. The mesh is then as before, on all ranks. The edits are
+  /// discarded; after Error(cancelled) they stay.
+  Change<D> update(const RunControl& control = {}, Told told = Told::all);
+
+  /// The simplices of this rank, and the vertices that they need, in canonical form. Empty before
+  /// the first update, and on ranks beyond the number of points.
+  [[nodiscard]] Mesh<D> own_mesh() const;
+  /// Of all: the mesh on rank `to`, equal to that of one process; empty on others.
+  [[nodiscard]] Mesh<D> gather(int to = 0) const;
+  /// Of all: sums over ranks, but of seconds the most.
+  [[nodiscard]] MeshStats stats() const;
+  /// Of all.
+  [[nodiscard]] MpiCounts counts() const;
+
+  /// The points of the last update, on any rank.
+  [[nodiscard]] std::size_t size() const noexcept;
+  [[nodiscard]] std::vector<GraphPoint<D>> points() const;
+  [[nodiscard]] const Options<D>& options() const noexcept;
+  [[nodiscard]] int rank() const noexcept;
+  [[nodiscard]] int ranks() const noexcept;
+  void check_invariants() const;
+
+ private:
+  template <int E>
+  friend void write_mesh(const MpiMesher<E>&, const std::string&);
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Of all: writes the mesh, whole or not at all. A path that ends in .pvtu is an index of files
+/// beside it, NAME_0.vtu, NAME_1.vtu, ..., one for each rank, and appears when these are complete;
+/// other formats are written by rank 0, as write_mesh of the gathered mesh.
+/// Throws: Error (unknown_format, cannot_write), std::bad_alloc.
+template <int D>
+void write_mesh(const MpiMesher<D>& mesher, const std::string& path);
+
+}  // namespace mesher

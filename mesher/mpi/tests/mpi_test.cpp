@@ -1,0 +1,188 @@
+// Ranks: at every step the mesh, and the change, are those of one process, whatever happens on the
+// way. One case, by name, on the ranks that mpirun starts.
+//
+//   mpirun -n P mpi_test plane|space|places|failures|limit|memory|files FOLDER
+#include "mesher/mpi.hpp"
+
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+
+#include "failing_new.hpp"
+#include "joint_case.hpp"
+#include "mesher/read.hpp"
+
+namespace {
+
+using mesher::MpiMesher;
+using mesher::Point;
+using mesher::PointId;
+using mesher::PointKind;
+using support::demand;
+
+std::size_t self, size;
+std::string folder;
+
+std::uint64_t least(std::uint64_t value) {
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_UINT64_T, MPI_MIN, MPI_COMM_WORLD);
+  return value;
+}
+
+template <int D>
+void check_edits(PointKind kind, std::size_t n, int threads, int steps, std::uint64_t seed) {
+  const auto points = mesher::generate_points<D>(kind, n, seed);
+  MpiMesher<D> m(MPI_COMM_WORLD, support::joint_options<D>(points, threads));
+  support::JointCase<D, MpiMesher<D>> both(m, self, size, points, seed);
+  both.run(steps);
+}
+
+constexpr PointKind kFamilies[] = {PointKind::uniform, PointKind::clusters, PointKind::grid,
+                                   PointKind::spread};
+
+void check_plane() {
+  std::uint64_t seed = 1;
+  for (const PointKind kind : kFamilies) {
+    check_edits<2>(kind, 150, 1 + static_cast<int>(seed % 2), 12, seed);
+    ++seed;
+  }
+  for (const std::size_t n : {0, 1, 3}) check_edits<2>(PointKind::uniform, n, 1, 6, ++seed);
+}
+
+void check_space() {
+  std::uint64_t seed = 100;
+  for (const PointKind kind : kFamilies) check_edits<3>(kind, 20, 1, 2, seed++);
+  check_edits<3>(PointKind::uniform, 2, 1, 3, seed);
+}
+
+template <class Check>
+void check_with(const Check& check) {
+  const auto points = mesher::generate_points<2>(PointKind::uniform, 200, 5);
+  MpiMesher<2> m(MPI_COMM_WORLD, support::joint_options<2>(points));
+  check(m);
+}
+
+void check_places() {
+  check_with([](auto& m) { support::check_places(m, self, size); });
+  check_with([](auto& m) { support::check_told<mesher::Told>(m, self, size); });
+}
+
+void check_failures() {
+  const auto points = mesher::generate_points<2>(PointKind::uniform, 400, 4);
+  MpiMesher<2> m(MPI_COMM_WORLD, support::joint_options<2>(points));
+  support::check_failures(m, self, size);
+}
+
+void check_limit() {
+  const auto points = mesher::generate_points<2>(PointKind::uniform, 200, 7);
+  auto options = support::joint_options<2>(points);
+  options.max_vertices = mesher::mesh_statically<2>(points, options).vertices.size();
+  MpiMesher<2> m(MPI_COMM_WORLD, options);
+  support::check_too_many(m, self, size, points);
+}
+
+// act(), of which an allocation fails on the last rank. Whether it has failed.
+template <class Act>
+bool fails_at(std::uint64_t count, bool& burnt, const Act& act) {
+  if (self == size - 1) return support::fails(count, burnt, act);
+  try {
+    act();
+    return false;
+  } catch (const std::bad_alloc&) {
+    return true;
+  }
+}
+
+// One allocation after the other fails on the last rank: no rank gets a mesher, and all take an
+// update back.
+void check_memory() {
+  const auto points = mesher::generate_points<2>(PointKind::uniform, 24, 6);
+  const auto options = support::joint_options<2>(points);
+  bool fails = true;
+  for (std::uint64_t count = 1; fails; ++count) {
+    bool burnt = false;
+    const bool failed =
+        fails_at(count, burnt, [&] { static_cast<void>(MpiMesher<2>(MPI_COMM_WORLD, options)); });
+    fails = least(failed ? 0 : 1) == 0;
+    demand(least(failed ? 1 : 0) == (fails ? 1u : 0u), "a mesher on some ranks alone");
+  }
+  MpiMesher<2> m(MPI_COMM_WORLD, options);
+  const auto update = [&] { static_cast<void>(m.update()); };
+  const auto check = [&](const auto& announce) {
+    const mesher::Mesh<2> before = m.own_mesh();
+    bool burnt = true;
+    for (std::uint64_t count = 1; burnt; count += 1 + count / 12) {
+      burnt = false;
+      announce();
+      const bool failed = fails_at(count, burnt, update);
+      burnt = least(burnt ? 0 : 1) == 0;
+      demand(least(failed ? 0 : 1) == (failed ? 0u : 1u), "one has failed, and others have not");
+      if (!failed) return;
+      demand(m.own_mesh() == before, "a failure leaves the mesh");
+      m.check_invariants();
+    }
+    announce();
+    update();
+  };
+  check([&] {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (i % size == self) m.insert(PointId(i + 1), points[i]);
+    }
+  });
+  check([&] {
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (i % size == self) m.move(PointId(i + 1), {points[i][1], points[i][0]});
+    }
+  });
+}
+
+// Pieces have each simplex once; other formats have the bytes of one process.
+void check_files() {
+  const auto points = mesher::generate_points<2>(PointKind::uniform, 500, 3);
+  MpiMesher<2> m(MPI_COMM_WORLD, support::joint_options<2>(points));
+  support::JointCase<2, MpiMesher<2>> both(m, self, size, points, 3);
+  const std::string name = folder + "/mpi_" + std::to_string(size);
+  mesher::write_mesh(m, name + ".pvtu");
+  mesher::write_mesh(m, name + ".vtu");
+  demand(std::filesystem::exists(name + ".pvtu"), "the index");
+  const mesher::Mesh<2> piece = mesher::read_mesh<2>(name + "_" + std::to_string(self) + ".vtu");
+  const mesher::Mesh<2> own = m.own_mesh();
+  demand(piece == own, "a piece");
+  if (self == 0) {
+    const mesher::Mesh<2> whole = mesher::read_mesh<2>(name + ".vtu");
+    demand(whole == both.one().mesh(), "the merged file");
+  }
+  const auto refused = support::code_of([&] { mesher::write_mesh(m, name + "/none/a.pvtu"); });
+  demand(refused == mesher::ErrorCode::cannot_write, "a folder that is not there");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int level = 0, rank = 0, ranks = 1;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &level);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  self = static_cast<std::size_t>(rank);
+  size = static_cast<std::size_t>(ranks);
+  folder = argc > 2 ? argv[2] : ".";
+  const struct {
+    const char* name;
+    void (*check)();
+  } kCases[] = {{"plane", check_plane},   {"space", check_space}, {"failures", check_failures},
+                {"places", check_places}, {"limit", check_limit}, {"memory", check_memory},
+                {"files", check_files}};
+  bool is_known = false;
+  try {
+    for (const auto& one : kCases) {
+      if (argc < 2 || std::strcmp(argv[1], one.name) != 0) continue;
+      is_known = true;
+      one.check();
+    }
+  } catch (const std::exception& failure) {
+    std::fprintf(stderr, "rank %d of %d: %s\n", rank, ranks, failure.what());
+    MPI_Abort(MPI_COMM_WORLD, 1);
+  }
+  MPI_Finalize();
+  return is_known ? 0 : 2;
+}

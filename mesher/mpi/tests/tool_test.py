@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+"""The tool mesher-mpi: its files have the bytes of one process, errors are said once, and no wrong
+file is left, whatever happens to a rank.
+
+    tool_test.py MESHER_MPI MESHER FOLDER MPIRUN...
+"""
+import os
+import pathlib
+import random
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+tool, mesher, folder = sys.argv[1:4]
+mpirun = sys.argv[4:]
+folder = pathlib.Path(folder) / "tool_test"
+
+
+def run_ranks(ranks, *arguments):
+    command = [*mpirun, "-n", str(ranks), tool, *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=300)
+
+
+def make_input(name, *arguments):
+    path = folder / name
+    subprocess.run([mesher, "gen", *map(str, arguments), "-o", path], check=True,
+                   capture_output=True)
+    return path
+
+
+def meshed_alone(source, target, script=None):
+    command = ["edit", source, "--script", script] if script else ["mesh", source]
+    if not script:
+        command += ["--algorithm", "gap-balls"]
+    subprocess.run([mesher, *command, "-o", target, "--quiet"], check=True)
+    return target.read_bytes()
+
+
+def cells_of(text):
+    """Triangles or tetrahedra, without the edges and faces of features."""
+    types = re.search(r'Name="types"[^>]*>([^<]*)<', text).group(1).split()
+    return types.count("10") or types.count("5")
+
+
+def check_bytes():
+    for name, arguments in {
+        "plane.node": ["uniform", "--n", 800, "--seed", 3],
+        "space.node": ["uniform", "--n", 120, "--seed", 3, "--dim", 3],
+    }.items():
+        source = make_input(name, *arguments)
+        script = folder / "edits.txt"
+        z = " 0.25" if "space" in name else ""
+        script.write_text(f"+point 100000 0.5 0.5{z} marker 3\n"
+                          f"begin\nmove 5 0.25 0.75{z}\n-point 7\ncommit\n")
+        for edits in (None, script):
+            expected = meshed_alone(source, folder / "alone.vtu", edits)
+            for ranks in (1, 3):
+                index = folder / f"parts_{ranks}.pvtu"
+                more = ["--script", edits] if edits else []
+                made = run_ranks(ranks, source, "-o", index, "-o", folder / "merged.vtu", *more)
+                assert made.returncode == 0, made.stderr
+                assert (folder / "merged.vtu").read_bytes() == expected, name
+                pieces = re.findall(r'Source="([^"]+)"', index.read_text())
+                assert len(pieces) == ranks
+                cells = sum(cells_of((folder / piece).read_text()) for piece in pieces)
+                assert cells == cells_of(expected.decode()), (name, ranks, edits)
+
+
+def check_errors():
+    source = make_input("plane.node", "uniform", "--n", 300)
+    far = folder / "far.txt"
+    far.write_text("+point 9999 0.5 0.5\n+point 10000 1e6 0\n")
+    for arguments, code, text in (
+        ([folder / "none.node", "-o", folder / "no.vtu"], 2, "cannot_read"),
+        ([source, "-o", folder / "no.pvtu", "--script", far], 1, "far.txt:2:1: error"),
+        ([source, "-o", folder / "no.pvtu", "--max-vertices", 5], 4, "too_many"),
+        ([source, "-o", folder / "no.pvtu", "--rho", 0.5], 2, "bad_option"),
+        ([source, "-o", folder / "none" / "no.pvtu"], 2, "cannot_write"),
+        ([source, "-o", folder / "no.what"], 2, "unknown_format"),
+        ([source, "--nonsense"], 2, "bad_option"),
+    ):
+        failed = run_ranks(3, *arguments)
+        said = [line for line in failed.stderr.splitlines() if "error[" in line]
+        assert len(said) == 1 and text in said[0], (arguments, failed.stderr)
+        assert failed.returncode == code, (arguments, failed.returncode, failed.stderr)
+        assert not list(folder.glob("no*")), arguments
+
+
+def ranks_under(parent):
+    """The processes of the tool that this mpirun has started."""
+    found = []
+    for path in pathlib.Path("/proc").glob("[0-9]*/stat"):
+        try:
+            text = path.read_text()
+        except OSError:
+            continue
+        pid, name, rest = re.match(r"(\d+) \((.*)\) (.*)", text, re.DOTALL).groups()
+        if int(rest.split()[1]) == parent and name == pathlib.Path(tool).name[:15]:
+            found.append(int(pid))
+    return found
+
+
+def check_kills(times):
+    source = make_input("large.node", "uniform", "--n", 15000)
+    good = folder / "good"
+    good.mkdir()
+    start = time.monotonic()
+    assert run_ranks(3, source, "-o", good / "a.pvtu", "-o", good / "a.node").returncode == 0
+    whole = time.monotonic() - start
+    expected = {path.name: path.read_bytes() for path in good.iterdir()}
+    left = folder / "left"
+    for seed in range(times):
+        shutil.rmtree(left, ignore_errors=True)
+        left.mkdir()
+        delay = random.Random(seed).uniform(0.3, 1.1) * whole
+        run = subprocess.Popen([*mpirun, "-n", "3", tool, source, "-o", left / "a.pvtu", "-o",
+                                left / "a.node"], stdout=subprocess.DEVNULL,
+                               stderr=subprocess.DEVNULL)
+        time.sleep(delay)
+        ranks = sorted(ranks_under(run.pid))
+        if ranks:
+            os.kill(random.Random(seed).choice(ranks), signal.SIGKILL)
+        code = run.wait(timeout=120)
+        found = {p.name for p in left.iterdir()}
+        if "a.pvtu" in found:
+            assert {f"a_{k}.vtu" for k in range(3)} <= found, (seed, found)
+        for name in found & set(expected):
+            assert (left / name).read_bytes() == expected[name], (seed, name)
+        print(f"rank killed after {delay:.2f} of {whole:.2f} s: exit {code}, {sorted(found)}")
+
+
+shutil.rmtree(folder, ignore_errors=True)
+folder.mkdir(parents=True)
+check_bytes()
+check_errors()
+if sys.platform == "linux":
+    check_kills(8)

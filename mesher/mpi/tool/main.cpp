@@ -1,0 +1,265 @@
+// mesher-mpi: a mesh of a file of points by several ranks, which follows a script of edits.
+#include <mpi.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mesher/extra/edit_script.hpp"
+#include "mesher/meshing.hpp"
+#include "mesher/mpi.hpp"
+#include "mesher/read.hpp"
+#include "mesher/write.hpp"
+#include "mpi_peers.hpp"
+
+namespace {
+
+using mesher::Error;
+using mesher::ErrorCode;
+using mesher::ExitCode;
+using mesher::Graph;
+using mesher::PointId;
+using mesher::detail::Bytes;
+using mesher::detail::MpiPeers;
+using mesher::detail::Packer;
+using mesher::detail::together;
+using mesher::detail::Unpacker;
+
+struct Arguments {
+  std::string input, script;
+  std::vector<std::string> outputs;
+  double rho = 0;  // 0: the default
+  std::size_t max_vertices = 0;
+  int threads = 1;
+  bool stats = false;
+};
+
+// What the first rank says, for all.
+template <class T>
+T of_first(MpiPeers& peers, const T& value) {
+  Packer mine;
+  together(peers, [&] { mine.put(value); });
+  const std::vector<Bytes> all = peers.gather(mine.bytes());
+  return Unpacker(all.front()).take<T>();
+}
+
+template <int D>
+class Program {
+ public:
+  // Of all ranks, as all that follows. The first rank alone reads, and writes what is not in
+  // pieces.
+  Program(const Arguments& arguments, MpiPeers& peers)
+      : arguments_(arguments), peers_(peers), is_first_(peers.self() == 0) {}
+
+  void run() {
+    on_first([&] { read(), require_outputs(); });
+    mesher::MpiMesher<D> m(MPI_COMM_WORLD, options());
+    for (const auto& p : graph_.points) m.insert(p.id, p.at);
+    mesh(m);
+    if (!arguments_.script.empty()) follow(m);
+    for (const std::string& path : arguments_.outputs) write(m, path);
+    if (arguments_.stats) print(m);
+  }
+
+ private:
+  template <class Act>
+  void on_first(Act&& act) {
+    together(peers_, [&] {
+      if (is_first_) act();
+    });
+  }
+
+  void read() {
+    const std::string format = mesher::format_of(arguments_.input);
+    const bool is_complex = D == 3 && (format == ".poly" || format == ".smesh");
+    mesher::ReadOptions how;
+    how.points_alone = D == 3 && !is_complex;
+    graph_ = mesher::read<D>(arguments_.input, how).graph;
+    bool has_more = !graph_.segments.empty() || !graph_.polylines.empty() || !graph_.seeds.empty();
+    if constexpr (D == 3) has_more = has_more || !graph_.polygons.empty();
+    if (has_more) {
+      throw Error(ErrorCode::unsupported, "several ranks mesh points alone", {arguments_.input});
+    }
+  }
+
+  // A bad path is found before the work begins.
+  void require_outputs() const {
+    for (const std::string& path : arguments_.outputs) {
+      mesher::OutputFiles files;
+      files.protect(arguments_.input);
+      if (!arguments_.script.empty()) files.protect(arguments_.script);
+      if (mesher::format_of(path) == ".pvtu") {
+        files.open(path);
+      } else {
+        static_cast<void>(mesher::open_mesh<D>(files, path));
+      }
+    }
+  }
+
+  mesher::Options<D> options() {
+    std::vector<mesher::Point<D>> places;
+    mesher::Options<D> options;
+    on_first([&] {
+      for (const auto& p : graph_.points) places.push_back(p.at);
+      options.domain = mesher::snapped_domain<D>(places);
+    });
+    options.domain = of_first(peers_, options.domain);
+    if (arguments_.rho != 0) options.rho = arguments_.rho;
+    options.max_vertices = arguments_.max_vertices;
+    options.threads = arguments_.threads;
+    return options;
+  }
+
+  void mesh(mesher::MpiMesher<D>& m) {
+    try {
+      m.update({}, mesher::Told::own);
+    } catch (const Error& error) {
+      throw error.at({arguments_.input});
+    }
+  }
+
+  // Batch by batch; the edits of a batch are announced by the first rank.
+  void follow(mesher::MpiMesher<D>& m) {
+    std::optional<mesher::EditScript<D>> script;
+    on_first([&] { script.emplace(arguments_.script); });
+    while (true) {
+      std::optional<std::vector<mesher::Edit<D>>> edits;
+      on_first([&] {
+        edits = script->next();
+        if (!edits) return;
+        edits = mesher::announcing_order(*edits);
+        for (const auto& edit : *edits) mesher::announce(edit, m);
+      });
+      if (!of_first(peers_, edits.has_value())) return;
+      try {
+        m.update({}, mesher::Told::own);
+      } catch (const Error& error) {
+        if (!edits) throw;
+        throw error.at(mesher::location_to_blame(*edits, error));
+      }
+      on_first([&] {
+        for (const auto& edit : *edits) note_marker(edit);
+      });
+    }
+  }
+
+  void note_marker(const mesher::Edit<D>& edit) {
+    if (edit.kind == mesher::EditKind::insert) markers_[PointId{edit.number}] = edit.marker;
+  }
+
+  void write(const mesher::MpiMesher<D>& m, const std::string& path) {
+    if (mesher::format_of(path) == ".pvtu") return mesher::write_mesh(m, path);
+    mesher::Mesh<D> whole = m.gather();
+    on_first([&] {
+      mesher::WriteOptions how;
+      const auto made =
+          mesher::domain_mesh(std::move(whole), graph_of(m), mesher::Extent::enclosed);
+      mesher::OutputFiles files;
+      mesher::open_mesh<D>(files, path, mesher::MeshFiles::plain, how)(made.mesh,
+                                                                       made.mesh.features);
+      files.commit();
+    });
+  }
+
+  // The input, as it is now.
+  Graph<D> graph_of(const mesher::MpiMesher<D>& m) const {
+    Graph<D> now;
+    std::map<PointId, std::int64_t> markers;
+    for (const auto& p : graph_.points) markers[p.id] = p.marker;
+    for (const auto& [id, marker] : markers_) markers[id] = marker;
+    now.points = m.points();
+    for (auto& p : now.points) p.marker = markers[p.id];
+    return now;
+  }
+
+  void print(const mesher::MpiMesher<D>& m) const {
+    const mesher::MpiCounts c = m.counts();
+    const mesher::MeshStats s = m.stats();
+    if (!is_first_) return;
+    const auto number = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
+    std::printf(
+        "{\"ranks\":%d,\"points\":%zu,\"vertices\":%llu,\"simplices\":%llu,"
+        "\"least_vertices\":%llu,\"most_vertices\":%llu,\"rounds\":%llu,\"horizons\":%llu,"
+        "\"messages\":%llu,\"bytes\":%llu,\"most_bytes\":%llu,\"seen\":%llu,\"calls\":%llu,"
+        "\"trace_bytes\":%llu}\n",
+        m.ranks(), m.size(), number(c.vertices), number(s.simplices), number(c.least_vertices),
+        number(c.most_vertices), number(c.rounds), number(c.horizons), number(c.messages),
+        number(c.bytes), number(c.most_bytes), number(c.seen), number(s.calls),
+        number(s.trace_bytes));
+  }
+
+  const Arguments& arguments_;
+  MpiPeers& peers_;
+  bool is_first_;
+  Graph<D> graph_;                           // of the first rank
+  std::map<PointId, std::int64_t> markers_;  // of points that the script has brought
+};
+
+int run(int argc, char** argv, MpiPeers& peers) {
+  const bool is_first = peers.self() == 0;
+  Arguments arguments;
+  CLI::App app{
+      "Makes a quality Delaunay mesh of a file of points by all ranks, and updates it under "
+      "edits:\n"
+      "the mesh of 'mesher edit', to the last byte, whatever the number of ranks.",
+      "mesher-mpi"};
+  app.footer(
+      "Example: mpirun -n 4 mesher-mpi points.node -o mesh.pvtu -o mesh.node --script edits.txt\n"
+      "Exit codes, on all ranks: 0 ok, 1 geometry, 2 usage, 3 format, 4 limit, 70 a bug.");
+  app.add_option("INPUT", arguments.input, "A file of points: see 'mesher mesh --help'")
+      ->required();
+  app.add_option("-o,--output", arguments.outputs,
+                 "The mesh: .pvtu and a .vtu file beside it for each rank; or one file, in any\n"
+                 "format of 'mesher mesh', which the first rank gathers and writes")
+      ->allow_extra_args(false);
+  app.add_option("--script", arguments.script, "Edits that are made one batch after the other");
+  app.add_option("--rho", arguments.rho, "The bound on circumradius over shortest edge");
+  app.add_option("--max-vertices", arguments.max_vertices, "More are an error");
+  app.add_option("--threads", arguments.threads, "Of each rank")->capture_default_str();
+  app.add_flag("--stats", arguments.stats, "Print counts as a line of JSON");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return is_first ? app.exit(help) : 0;
+  } catch (const CLI::ParseError& error) {
+    throw Error(ErrorCode::bad_option, std::string(error.what()) + "; see 'mesher-mpi --help'");
+  }
+  int dimension = 0;
+  together(peers, [&] {
+    if (is_first) dimension = mesher::dimension_of(arguments.input);
+  });
+  dimension = of_first(peers, dimension);
+  dimension == 3 ? Program<3>(arguments, peers).run() : Program<2>(arguments, peers).run();
+  return 0;
+}
+
+}  // namespace
+
+// What is thrown is thrown on all ranks: they come to the end together, and one of them says why.
+int main(int argc, char** argv) {
+  int level = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &level);
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const auto fail = [&](ExitCode code, const std::string& message) {
+    if (rank == 0) std::fprintf(stderr, "%s\n", message.c_str());
+    return static_cast<int>(code);
+  };
+  int code = 0;
+  try {
+    MpiPeers peers(MPI_COMM_WORLD);
+    code = run(argc, argv, peers);
+  } catch (const Error& error) {
+    code = fail(mesher::exit_code(error.code()), error.what());
+  } catch (const std::bad_alloc&) {
+    code = fail(ExitCode::limit, "error[too_many]: out of memory");
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "rank %d: error[bug]: %s; this is our mistake\n", rank, error.what());
+    MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ExitCode::bug));
+  }
+  MPI_Finalize();
+  return code;
+}

@@ -1,0 +1,99 @@
+// A mesh of points that several processes keep together, with the bytes of one.
+//
+// Each process has a JointMesher with the same options, and its tiles of the mesh: the calls of the
+// trace, and the simplices, are divided. Points and the tree that says how crowded they are, are
+// held by all: the trace is 10 to 20 times larger.
+//
+// Functions that are said to be of all are called by all processes, in the same order; they throw
+// in all, or in none (peers.hpp).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "facade/announced_points.hpp"
+#include "facade/reentry_guard.hpp"
+#include "facade/tiled_state.hpp"
+#include "mesher/mesher.hpp"
+
+namespace mesher::detail {
+
+/// Who is told of a change: each process of what is its own, the first of all, or all of all.
+enum class Told : std::uint8_t { own, first, all };
+
+/// Sums over all processes, unless said otherwise.
+struct JointCounts {
+  Exchanges exchanges;  // rounds, horizons: of each; most_bytes_out: the most of one
+  std::uint64_t seen = 0;
+  std::uint64_t vertices = 0;
+  std::uint64_t least_vertices = 0, most_vertices = 0;  // of one
+};
+
+template <int D>
+class JointMesher {
+ public:
+  /// Of all, with equal options; options.threads: of each. Throws: Error(bad_option), also for
+  /// options that differ, and for those that tiles do not have (may_be_tiled).
+  JointMesher(std::unique_ptr<Peers> peers, const Options<D>& options);
+  JointMesher(const JointMesher&) = delete;
+  JointMesher& operator=(const JointMesher&) = delete;
+
+  /// Announces an edit, in any process. Judged by update(), so it throws std::bad_alloc alone.
+  void insert(PointId id, const Point<D>& p) { announce({Kind::insert, id, p}); }
+  void remove(PointId id) { announce({Kind::remove, id, {}}); }
+  void move(PointId id, const Point<D>& p) { announce({Kind::move, id, p}); }
+  /// Of this process.
+  void discard_edits() noexcept { announced_.clear(); }
+
+  /// Of all. Makes the edits of all processes, those of the first one first; places are judged when
+  /// all are made. Throws: as Mesher::update and announcing to one; what control.progress of one
+  /// process throws is std::runtime_error in others. The mesh is then as before in all; the edits
+  /// stay announced if it is Error(cancelled), else they are discarded, in all.
+  Change<D> update(const RunControl& control = {}, Told told = Told::all);
+
+  /// The simplices of this process, each of which no other has, and their vertices. Empty before
+  /// the first update.
+  [[nodiscard]] Mesh<D> own_mesh() const;
+  /// Of all: the mesh, in process `to`; empty in others.
+  [[nodiscard]] Mesh<D> gather(std::size_t to = 0) const;
+  /// Of all: sums, but of seconds the most.
+  [[nodiscard]] MeshStats stats() const;
+
+  /// Of all. Requires: an update.
+  [[nodiscard]] JointCounts counts() const;
+
+  /// Points of the last update.
+  [[nodiscard]] std::size_t size() const noexcept { return state_->size(); }
+  [[nodiscard]] std::vector<GraphPoint<D>> points() const { return state_->points(); }
+  [[nodiscard]] const Options<D>& options() const noexcept { return options_; }
+  [[nodiscard]] Peers& peers() const noexcept { return *peers_; }
+  /// Requires: an update.
+  [[nodiscard]] const TiledMesher<D>& tiles() const noexcept { return state_->tiles(); }
+  void check_invariants() const;
+
+ private:
+  enum class Kind : std::int64_t { insert, remove, move };  // as wide as the others: no gap
+  struct Announcement {
+    Kind kind;
+    PointId id;
+    Point<D> p;
+  };
+
+  void announce(const Announcement& edit);
+  void require_equal_options();
+  void collect(const RunControl& control);
+  Change<D> run(const RunControl& control, Told told);
+  void tell(Change<D>& change, Told told) const;
+
+  std::unique_ptr<Peers> peers_;
+  Options<D> options_;
+  MeshBox<D> box_;
+  std::unique_ptr<TiledState<D>> state_;
+  std::vector<Announcement> announced_;  // in this process
+  AnnouncedPoints<D> edits_;             // in all
+  StagedLines no_lines_;
+  StagedPolygons no_polygons_;
+  ReentryGuard busy_;
+};
+
+}  // namespace mesher::detail
