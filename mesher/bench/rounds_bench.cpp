@@ -179,7 +179,7 @@ struct MeanAndMost {
   }
   [[nodiscard]] std::string text() const {
     char buffer[64];
-    std::snprintf(buffer, sizeof buffer, "[%.1f,%llu]", mean,
+    std::snprintf(buffer, sizeof buffer, "[%.3f,%llu]", mean,
                   static_cast<unsigned long long>(most));
     return buffer;
   }
