@@ -6,40 +6,44 @@
 
 The ranks stand in a grid, as the cuts of a k-d tree of uniform points place them. The run goes as
 TiledMesher::first_run: the quadtree; bucket after bucket (horizons); the stars. In each step every
-rank draws its calls; in each round every rank draws the messages to each neighbour, those who receive
-them run calls, and the slowest rank decides when the round ends. A round is held if some rank has
-something to say. Arrays have an entry for every rank; there are no classes of ranks.
+rank draws its calls; in each round every rank draws the messages to each neighbour, those who
+receive them run calls, and the slowest rank decides when the round ends. A round is held if some
+rank has something to say. Arrays have an entry for every rank; there are no classes of ranks.
 
-What is drawn from is measured (scale_counts.json, made from `rounds_bench --steps`): calls and messages
-of each horizon, and how they are spread over rounds, of one run on 16 ranks. Laws of calls and of
-messages between neighbours are fitted to runs on up to 16 ranks; those of what lies outside the points,
-and of how many rounds follow the last one measured, to runs on up to 256. --check repeats the runs of
-the table on up to 1024 ranks, prints the errors, and fails where one is above what BOUNDS states; runs
-on 128, 512 and 1024 ranks are held out.
+What is drawn from is counted (scale_counts.json, made from `rounds_bench --steps`): calls and
+messages of each horizon, and how they are spread over rounds, of one run on 16 ranks. Laws of calls
+and of messages between neighbours are fitted to runs on up to 16 ranks; those of what lies outside
+the points, and of how many rounds follow the last one counted, to runs on up to 256. --check
+repeats the runs of the table on up to 1024 ranks, prints the errors, and fails where one is above
+what BOUNDS states; runs on 128, 512 and 1024 ranks are held out.
 
-The machine is assumed, and each number is an option:
-    --own_call, --border_call   seconds a call: of a tile's own, and one that a message causes. Defaults:
-                                measured on one core of the machine of figures.md, which others used
-    --undivided                 seconds a point, of what each rank does for all points: measured there
-    --latency, --bandwidth      2 us, 12.5e9 bytes/s (100 Gbit/s): a network of 2020 as it is sold
+The machine is assumed; each number is an option:
+    --own_call, --border_call   seconds a call: of a tile's own, and one that a message causes
+    --undivided, --read         seconds a point: of what each rank does for all points, and of the
+                                first rank that reads them
+    --told, --loop              seconds a look-up among what a tile was told; for each other rank in
+                                a round. Defaults of these six: of a processor at 2 to 3 GHz that
+                                others used, too
+    --latency, --bandwidth      2 us; 12.5e9 bytes/s (100 Gbit/s): a network as it is sold
     --overhead                  seconds of a processor for a message: 1 us
-    --told, --loop              seconds a look-up among what a tile was told; for each other rank in a
-                                round: measured in a loop of the same tables
+    --alltoall                  bruck: half of all numbers go in each of log2 P steps; pairwise
     --memory                    bytes of a rank: 4e9 (256 GB for 64 cores)
 
---design now: each rank has all points and asks all tables of other tiles; sizes go by MPI_Alltoall.
+--design now: each rank has all points and asks all tables of other tiles; the first rank reads and
+    sends all; sizes go by MPI_Alltoall.
     divided: points are divided, tables and sizes are those of neighbours; the first rank reads all.
     read: and each rank reads its part. (There is no code of either.)
---spread S: uneven input: the horizons of a rank are shifted by a normal number of deviation S.
+--spread S: uneven input: horizons of a rank are shifted by a normal number of deviation S.
 
     rounds, horizons, agreements   as they came
-    calls      of a rank: mean, and most; over_one: mean over those of one rank / P
-    steps_over_mean                the most calls of a rank in each step, summed, over the mean of all
-    messages, bytes                of a rank; most_bytes: of one rank in one round
-    memory_*   bytes of a rank: of the trace; of points; of tables of other ranks; memory_fits
-    seconds_*  of the run: undivided, spread (the first rank sends the points to all), calls (own, and
-               waiting for the slowest), border (calls of messages, and messages), told, agree, sizes
-    efficiency seconds of one rank / P, over the seconds; closed_form: seconds by means, no draws
+    calls           of a rank: mean, most; over_one: mean over those of one rank / P
+    steps_over_mean the most calls of a rank in each step, summed, over the mean of all
+    messages, bytes of a rank; most_bytes: of one rank in one round
+    memory_*        bytes of a rank: of the trace; of points, at the peak; of tables of other ranks
+    seconds_*       read, undivided, spread (the first rank sends the points), calls (own, of the
+                    slowest), border (calls of messages, and messages), told, agree, sizes
+    efficiency      seconds of one rank / P over the seconds; closed_form: seconds by means, nothing
+                    drawn and nobody waiting
 """
 import argparse
 import json
@@ -57,20 +61,28 @@ COUNTS = pathlib.Path(__file__).with_name("scale_counts.json")
 RHO = {2: 2 ** 0.5, 3: 2.0}  # a bucket's lengths
 NAME = {2: "plane", 3: "space"}
 
-# Laws, fitted to runs on up to 16 ranks. `side`: of a tile, in mean spacings.
-CALLS = {2: (5.645, 14.0), 3: (5.05, 15.1)}            # of one rank: a n + b n^((d-1)/d)
-MESSAGES = {2: (7.86, 24.4), 3: (10.85, 30.2)}         # a unit of face; of a corner (space: an edge)
-HULL = {2: (0.9, 1.15), 3: (22.0, 13.5)}               # a hull side and coarse horizon: a + b log2 P
+# Laws, by dimension. The side of a tile is in mean spacings.
+CALLS = {2: (5.645, 14.0), 3: (5.05, 15.1)}  # of one rank: a n + b n^((d-1)/d)
+MESSAGES = {2: (7.86, 24.4), 3: (10.85, 30.2)}  # a unit of a face; of a corner, in space an edge
 CALLS_OF_MESSAGE = {2: (1.10, 8.2), 3: (0.985, 0.75)}  # a + b / side
 BYTES_OF_MESSAGE = {2: 60.1, 3: 76.0}
 SEEN_OF_MESSAGE = {2: 0.43, 3: 0.47}
-TOUCHED = {2: (1.59, 2.6), 3: (1.60, 2.6)}             # records: a point, and one that is seen
-TAIL = {2: 1.7, 3: 1.6}                                # rounds in which messages become e times fewer
-ASKS_ALL = {2: 16, 3: 0}                               # rounds in which one rank asks each other one
-SCATTER, CLUMPS = 1.4, 2.0                             # deviation of calls over a root; variance of messages over the mean
-TRACE = {2: 1270.0, 3: 1790.0}                         # bytes a point, of one rank
-POINT, POINT_AT_PEAK = 130.0, {2: 380.0, 3: 540.0}     # bytes a point, on every rank
-TABLE = 168.0 + 96.0                                   # bytes for each other rank: what it asked, and views
+TOUCHED = {2: (1.59, 2.6), 3: (1.60, 2.6)}  # records, for a point, and for one that is seen
+TAIL = {2: 1.7, 3: 1.6}  # rounds in which messages become e times fewer
+SCATTER = 1.4  # deviation of calls, over the root of the mean
+CLUMPS = 2.0  # variance of messages, over the mean
+# Outside the points, in coarse horizons: messages for a side of a tile there, a + b log2 P; how
+# many ranks speak, a b^k of the k-th from the last; rounds in which one asks each other one.
+HULL = {2: (0.9, 1.15), 3: (22.0, 13.5)}
+HULL_SPEAKERS = {2: (4, 1.25), 3: (16, 4.0)}
+HULL_LAST = {2: (), 3: (0.1, 0.75)}  # of these messages, in the last horizons; else
+HULL_OTHERS = {2: 1.0, 3: 1.2}
+ASKS_ALL = {2: 16, 3: 0}
+
+TRACE = {2: 1270.0, 3: 1790.0}  # bytes a point, of one rank
+POINT_AT_PEAK = {2: 380.0, 3: 540.0}  # bytes a point, on every rank
+TABLE = 264.0  # bytes for each other rank: what it asked and was told, what goes to it
+
 HELD_OUT = (128, 512, 1024)
 # The largest relative error of a mean, of rounds, of the most calls summed, of the most bytes.
 BOUNDS = {"messages": 0.12, "calls": 0.08, "rounds": 0.35, "steps_calls": 0.15, "most_bytes": 0.45}
@@ -85,8 +97,9 @@ class Grid:
         self.ranks = ranks
         self.sides = [points ** (1 / dimension) / d for d in self.dims]
         at = np.indices(self.dims).reshape(dimension, -1)
-        self.has, self.from_there, self.pairs = {}, {}, {}  # by direction: who has a neighbour there
-        self.width = {}  # and what they have in common: a face, or in the plane a corner, else an edge
+        # By direction: who has a neighbour there, and what they have in common: a face, a corner in
+        # the plane, an edge in space.
+        self.has, self.from_there, self.pairs, self.width = {}, {}, {}, {}
         for axis in range(dimension):
             for step in (-1, 1):
                 self.add(at, {axis: step})
@@ -159,7 +172,7 @@ class Horizon:
 
 
 def horizons(points, dimension, counts):
-    """Those of a measured run, shifted: with more points there are more fine and more coarse ones."""
+    """Those of a run that was counted; more points have more fine and more coarse ones."""
     base = counts[NAME[dimension]]
     listed = base["horizons"]
     inside = [h for h in listed if h[0] != "coarse"]
@@ -171,11 +184,16 @@ def horizons(points, dimension, counts):
     finest = made[1]
     finest.share = made[3].share
     factor = RHO[dimension] ** dimension
-    fine = [Horizon("core", finest.share / factor ** k, 0.0, [1.0]) for k in range(1, round(more) + 1)]
+    fine = [Horizon("core", finest.share / factor ** k, 0.0, [1.0])
+            for k in range(1, round(more) + 1)]
     coarse = sum(h[0] == "coarse" for h in listed) + round(more)
     far = [Horizon("coarse", 0.0, 0.0, coarse_shares(dimension)) for _ in range(max(coarse, 0))]
     first = 1 + max(0, -round(more))
-    return made[:1] + fine[::-1] + made[first:-1] + far + made[-1:]
+    all_of_them = made[:1] + fine[::-1] + made[first:-1] + far + made[-1:]
+    calls = sum(h.share for h in all_of_them)
+    for h in all_of_them:
+        h.share /= calls
+    return all_of_them
 
 
 class Run:
@@ -198,8 +216,8 @@ class Run:
         self.steps = 0.0
         self.rounds = self.agreements = self.held = 0
         self.most_messages = 0.0
-        self.seconds = dict.fromkeys(("undivided", "spread", "calls", "border", "told", "agree",
-                                      "sizes"), 0.0)
+        self.seconds = dict.fromkeys(("read", "undivided", "spread", "calls", "border", "told",
+                                      "agree", "sizes"), 0.0)
         self.shift = np.rint(self.random.normal(0, args.spread, self.p)).astype(int)
 
     # --- What a rank has to do
@@ -227,6 +245,8 @@ class Run:
 
     def clumped(self, mean, size):
         """As many as messages scatter: with a variance of CLUMPS times the mean."""
+        if mean > 100:
+            return np.maximum(np.rint(self.random.normal(mean, math.sqrt(CLUMPS * mean), size)), 0)
         return self.random.negative_binomial(mean / (CLUMPS - 1), 1 / CLUMPS, size)
 
     def between_neighbours(self, weight):
@@ -314,6 +334,7 @@ class Run:
         self.seconds["undivided"] = whole * self.args.undivided
         copies = {"now": self.p - 1, "divided": 1 - 1 / self.p, "read": 0}[self.args.design]
         self.seconds["spread"] = self.n * (16 + 8 * self.d) * copies / self.args.bandwidth
+        self.seconds["read"] = self.args.read * (whole if self.args.design == "read" else self.n)
         for k, horizon in enumerate(self.horizons):
             self.run_horizon(k, horizon)
         self.ask_told()
@@ -321,7 +342,7 @@ class Run:
 
     def run_horizon(self, k, horizon):
         own = self.own_in(k)
-        if horizon.kind in ("core",) and own.max() == 0:
+        if horizon.kind == "core" and own.max() == 0:
             return  # nobody has anything to run: it is left out
         self.held += horizon.kind not in ("quadtree", "last")
         self.run_step(own, "calls", self.args.own_call)
@@ -339,13 +360,12 @@ class Run:
         from_last = sum(h.kind == "coarse" for h in self.horizons[k + 1:])
         a, b = HULL[self.d]
         total = (a + b * math.log2(self.p)) * self.grid.hull_sides.sum()
-        if self.d == 2:
-            speakers = 4 * 1.25 ** from_last
-        else:
-            total *= (0.1, 0.75)[from_last] if from_last < 2 else 1.2
-            speakers = 16 * 4.0 ** min(from_last, 20)
+        last = HULL_LAST[self.d]
+        total *= last[from_last] if from_last < len(last) else HULL_OTHERS[self.d]
+        some, more = HULL_SPEAKERS[self.d]
+        speakers = int(min(self.p, some * more ** min(from_last, 30)))
         for share in horizon.shares:
-            sent, got = self.on_hull(total * share, int(min(self.p, speakers)))
+            sent, got = self.on_hull(total * share, speakers)
             if sent.any():
                 self.hold_round(sent, got, self.p)
         if from_last in (4, 8):
@@ -364,19 +384,18 @@ class Run:
         own = CALLS[self.d][0] * self.n / self.p + CALLS[self.d][1] * self.n ** (
             (self.d - 1) / self.d) / self.p
         border = self.sent.mean() * self.per_message * a.border_call
-        return own * a.own_call + border + seconds["agree"] + seconds["sizes"] \
-            + self.rounds * a.latency + sum(seconds[k] for k in ("undivided", "spread", "told"))
+        others = ("read", "undivided", "spread", "told", "agree", "sizes")
+        return own * a.own_call + border + self.rounds * a.latency \
+            + sum(seconds[k] for k in others)
 
     def report(self):
         one = CALLS[self.d][0] * self.n + CALLS[self.d][1] * self.n ** ((self.d - 1) / self.d)
         total = sum(self.seconds.values())
-        if self.p == 1:
-            self.seconds["border"] = 0.0
         sent = self.sent.mean()
         trace = TRACE[self.d] * self.n / self.p * self.calls.mean() / (one / self.p)
-        points = (POINT_AT_PEAK[self.d]) * (self.n / self.p if self.divided else self.n)
+        points = POINT_AT_PEAK[self.d] * (self.n / self.p if self.divided else self.n)
         tables = TABLE * (3 ** self.d if self.divided else self.p)
-        seconds_of_one = one * self.args.own_call + self.n * self.args.undivided
+        seconds_of_one = one * self.args.own_call + self.n * (self.args.undivided + self.args.read)
         figures = {
             "bench": "scale", "dimension": self.d, "points": self.n, "ranks": self.p,
             "design": self.args.design, "spread": self.args.spread,
@@ -442,6 +461,7 @@ def arguments():
     parser.add_argument("--own_call", type=float, help="2.4e-6; in space 7e-6")
     parser.add_argument("--border_call", type=float, help="5e-6; in space 25e-6")
     parser.add_argument("--undivided", type=float, default=3.5e-6)
+    parser.add_argument("--read", type=float, default=0.25e-6)
     parser.add_argument("--latency", type=float, default=2e-6)
     parser.add_argument("--bandwidth", type=float, default=12.5e9)
     parser.add_argument("--overhead", type=float, default=1e-6)
