@@ -15,7 +15,8 @@ messages of each horizon, and how they are spread over rounds, of one run on 16 
 and of messages between neighbours are fitted to runs on up to 16 ranks; those of what lies outside
 the points, and of how many rounds follow the last one counted, to runs on up to 256. --check
 repeats the runs of the table on up to 1024 ranks, prints the errors, and fails where one is above
-what BOUNDS states; runs on 128, 512 and 1024 ranks are held out.
+what BOUNDS states; runs on 128, 512 and 1024 ranks are held out (but that on 512 was seen when the
+tail of rounds in space was chosen, and those on 64 to 1024 when ASKS_ALL was).
 
 The machine is assumed; each number is an option:
     --own_call, --border_call   seconds a call: of a tile's own, and one that a message causes
