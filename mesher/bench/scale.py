@@ -30,7 +30,7 @@ The machine is assumed; each number is an option:
     --alltoall                  bruck: half of all numbers go in each of log2 P steps; pairwise
     --memory                    bytes of a rank: 4e9 (256 GB for 64 cores)
 
---design now: each rank has all points and asks all tables of other tiles; the first rank reads and
+--design now: each rank has all points and tables for all other tiles; the first rank reads and
     sends all; sizes go by MPI_Alltoall.
     divided: points are divided, tables and sizes are those of neighbours; the first rank reads all.
     read: and each rank reads its part. (There is no code of either.)
@@ -325,8 +325,7 @@ class Run:
         """Who of all tiles was told of what has been touched."""
         a, b = TOUCHED[self.d]
         touched = a * self.n / self.p + b * SEEN_OF_MESSAGE[self.d] * self.sent.mean()
-        asked = 3 ** self.d if self.divided else self.p
-        self.seconds["told"] += touched * asked * self.args.told
+        self.seconds["told"] += touched * self.args.told
 
     # --- The run
 

@@ -487,6 +487,13 @@ std::vector<mesher::PeriodicMarkers> periodic_of(const MeshArguments& args, int 
   return pairs;
 }
 
+mesher::OutOfCore out_of_core_of(const MeshArguments& args) {
+  mesher::OutOfCore how{.folder = args.out_of_core};
+  if (!args.tiles.empty()) how.tiles = option_count("--tiles", args.tiles);
+  if (!args.threads.empty()) how.threads = option_threads(args.threads);
+  return how;
+}
+
 template <int D>
 void open_outputs(const MeshArguments& args, const Input<D>& input, Outputs<D>& outputs) {
   protect_inputs(args, input, outputs);

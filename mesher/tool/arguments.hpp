@@ -9,6 +9,7 @@
 #include "input.hpp"
 #include "mesher/mesh.hpp"
 #include "mesher/meshing.hpp"
+#include "mesher/out_of_core.hpp"
 #include "mesher/periodic.hpp"
 #include "outputs.hpp"
 
@@ -29,7 +30,8 @@ struct MeshArguments {
   std::vector<std::string> domain;  // the lower corner, the upper corner; or nothing
   std::string max_area, max_volume, max_size, sizes;
   std::string max_vertices;
-  std::string threads;  // of `edit` and `view`
+  std::string threads;             // of `edit` and `view`, and of `mesh --out-of-core`
+  std::string out_of_core, tiles;  // of `mesh` alone: a folder, how many
   bool region_areas = false;
   bool surface = false, merge = false, no_merge = false;
   bool repair = false;
@@ -115,6 +117,9 @@ void protect_inputs(const MeshArguments& args, const auto& input, Files& files) 
 /// The pairs of --periodic. Throws: Error(bad_option), also in space.
 [[nodiscard]] std::vector<mesher::PeriodicMarkers> periodic_of(const MeshArguments& args,
                                                                int dimension);
+
+/// What --out-of-core, --tiles and --threads say. Throws: Error(bad_option).
+[[nodiscard]] mesher::OutOfCore out_of_core_of(const MeshArguments& args);
 
 /// Opens the mesh outputs: those of `.node` with all files, if INPUT is of a format that has lines,
 /// or polygons that are meshed. Groups have the names of INPUT and those given.

@@ -1,6 +1,7 @@
 // mesher mesh: a mesh of a file of points and lines, or of a complex in space.
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -40,11 +41,43 @@ template <int D>
 struct Box {
   mesher::Mesh<D> mesh;
   mesher::PeriodicBox periodic;
+  std::optional<mesher::OutOfCoreReport> tiles{};
 };
+
+template <int D>
+bool has_points_alone(const mesher::Graph<D>& graph) {
+  bool has_more = !graph.segments.empty() || !graph.polylines.empty();
+  if constexpr (D == 3) has_more = has_more || !graph.polygons.empty();
+  return !has_more;
+}
+
+template <int D>
+Box<D> box_out_of_core(const MeshArguments& args, const Input<D>& input,
+                       const mesher::Options<D>& options, mesher::RunReport& report,
+                       const mesher::RunControl& control) {
+  if (!has_points_alone(input.graph())) {
+    throw mesher::Error(mesher::ErrorCode::unsupported,
+                        "--out-of-core meshes points alone, without lines and polygons",
+                        {args.input});
+  }
+  std::vector<mesher::Point<D>> points = mesher::places_of(input.graph());
+  std::vector<mesher::PointId> ids;
+  ids.reserve(points.size());
+  for (const auto& p : input.graph().points) ids.push_back(p.id);
+  Box<D> box;
+  box.tiles.emplace();
+  box.mesh = mesher::box_mesh_out_of_core<D>(std::move(points), options, out_of_core_of(args), ids,
+                                             &*box.tiles, control);
+  report.algorithm = mesher::Algorithm::gap_balls;
+  report.stats.vertices = box.mesh.vertices.size();
+  report.stats.simplices = box.mesh.simplices.size();
+  return box;
+}
 
 template <int D>
 Box<D> made_box(const MeshArguments& args, const Input<D>& input, const mesher::Options<D>& options,
                 mesher::RunReport& report, const mesher::RunControl& control) {
+  if (!args.out_of_core.empty()) return box_out_of_core(args, input, options, report, control);
   const auto pairs = periodic_of(args, D);
   if constexpr (D == 2) {
     if (!pairs.empty()) {
@@ -55,7 +88,7 @@ Box<D> made_box(const MeshArguments& args, const Input<D>& input, const mesher::
       return box;
     }
   }
-  return {mesher::box_mesh(input.graph(), options, &report, control, !args.stats.empty()), {}};
+  return {mesher::box_mesh(input.graph(), options, &report, control, !args.stats.empty()), {}, {}};
 }
 
 template <int D>
@@ -92,6 +125,7 @@ Box<D> box_mesh(const MeshArguments& args, const Input<D>& input, const mesher::
   run.stats = report.stats;
   run.refinement = report.refinement;
   run.rounds = box.periodic.rounds;
+  run.tiles = box.tiles;
   return box;
 }
 
@@ -174,6 +208,21 @@ void add_mesh(CLI::App& app) {
           "are the same, moved, and .msh pairs their nodes. May be repeated")
       ->type_name("FROM=TO")
       ->allow_extra_args(false);
+  mesh->add_option(
+          "--out-of-core", args->out_of_core,
+          "For points that are too many for memory: gap-balls tile after tile, which are\n"
+          "kept in FOLDER until all is done. A command that was stopped or killed goes on\n"
+          "from there. The mesh is the same")
+      ->type_name("FOLDER")
+      ->excludes("--periodic");
+  mesh->add_option("--tiles", args->tiles,
+                   "How many (default: one for each 1000000 points; in space for each 500000)")
+      ->type_name("N")
+      ->needs("--out-of-core");
+  mesh->add_option("--threads", args->threads,
+                   "With --out-of-core: how many tiles at a time (default: 1)")
+      ->type_name("N")
+      ->needs("--out-of-core");
   mesh->footer(
       std::string(
           "Every line is a union of edges. If lines enclose something, the output is what they\n"
@@ -183,7 +232,8 @@ void add_mesh(CLI::App& app) {
           "If the format of INPUT has lines, a .node output has .edge, .poly and .neigh beside\n"
           ".ele.\n"
           "The mesh is a function only of INPUT, the domain, --rho, --rule, --algorithm and the\n"
-          "limits of size: its files are the same bytes each time, with --static or without.\n"
+          "limits of size: its files are the same bytes each time, with --static or without,\n"
+          "and out of core.\n"
           "Files appear when all is done, or not at all.\n"
           "Limits of size hold in the output inside the domain. They are met by vertices of a\n"
           "lattice, so that edits change few vertices. The smallest of several limits counts.\n"
@@ -208,6 +258,7 @@ void add_mesh(CLI::App& app) {
       "  mesher mesh cell.poly --periodic 4=2 --periodic 1=3 -o cell.msh\n"
       "  mesher mesh scan.ply --algorithm svr -o scan.vtu\n"
       "  mesher mesh lake.poly --algorithm refine -o lake.vtu\n"
+      "  mesher mesh scan.xyz --out-of-core scratch --threads 2 -o scan.vtu\n"
       "  mesher mesh cities.csv --domain -180 -90 180 90 --rho 2 --static -o cities.vtu");
   mesh->callback([args] { run_mesh(*args); });
 }

@@ -149,10 +149,21 @@ void add_costs(const mesher::MeshStats& stats, double seconds_total, Json& json)
   json["peak_rss_bytes"] = platform::peak_memory_bytes();
 }
 
+Json json_of(const mesher::OutOfCoreReport& tiles) {
+  return {{"tiles", tiles.tiles},
+          {"tiles_found", tiles.tiles_found},
+          {"runs", tiles.runs},
+          {"rounds", tiles.rounds},
+          {"most_points", tiles.most_points},
+          {"all_points", tiles.all_points},
+          {"calls", tiles.calls}};
+}
+
 // By which algorithm, and what happened in it.
 void add_algorithm(const AnyRun& run, Json& json) {
   if (!run.algorithm.empty()) json["algorithm"] = run.algorithm;
   if (run.rounds > 0) json["periodic_rounds"] = run.rounds;
+  if (run.tiles) json["out_of_core"] = json_of(*run.tiles);
   if (!run.refinement) return;
   const mesher::SvrStats& s = *run.refinement;
   Json& events = json["refinement"];
@@ -275,6 +286,18 @@ void print_domain(const AnyRun& run, std::size_t points) {
 
 }  // namespace
 
+namespace {
+
+void print_tiles(const AnyRun& run) {
+  if (!run.tiles) return;
+  print_row("tiles", std::to_string(run.tiles->tiles) + ", of which " +
+                         std::to_string(run.tiles->tiles_found) + " were in the folder; " +
+                         counted(run.tiles->runs, "run") + ", " +
+                         counted(run.tiles->rounds, "comparison"));
+}
+
+}  // namespace
+
 void print_run(const Input<2>& input, const Run& run) {
   const mesher::Graph<2>& graph = input.graph();
   std::printf("%s: %s", input.path().c_str(), counted(graph.points.size(), "point").c_str());
@@ -288,6 +311,7 @@ void print_run(const Input<2>& input, const Run& run) {
   print_row("largest radius-edge", format("%.4f", run.quality.max_radius_edge));
   if (!run.algorithm.empty()) print_row("algorithm", run.algorithm);
   if (run.rounds > 0) print_row("periodic sides", "agree after " + counted(run.rounds, "round"));
+  print_tiles(run);
   print_row("time", format("%.3f s", run.seconds_total));
 }
 
@@ -315,6 +339,7 @@ void print_run(const Input<3>& input, const SpaceRun& run) {
                   (run.guard && run.guard->tetrahedra > 0 ? ", or left poor beside features" : ""));
   }
   if (!run.algorithm.empty()) print_row("algorithm", run.algorithm);
+  print_tiles(run);
   print_row("time", format("%.3f s", run.seconds_total));
 }
 

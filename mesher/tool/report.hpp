@@ -13,6 +13,7 @@
 #include "mesher/extra/edit_script.hpp"
 #include "mesher/mesher.hpp"
 #include "mesher/meshing.hpp"
+#include "mesher/out_of_core.hpp"
 #include "mesher/reports.hpp"
 
 namespace tool {
@@ -42,6 +43,7 @@ struct AnyRun {
   double seconds_total = 0;  ///< from the first point inserted to the finished mesh
   std::string algorithm;     ///< empty: there was no choice
   std::size_t rounds = 0;    ///< meshes until periodic sides agreed; 0: there are none
+  std::optional<mesher::OutOfCoreReport> tiles;  ///< of --out-of-core
   /// What happened in svr or refine, if it was asked for; `warped` and on are of svr.
   std::optional<mesher::SvrStats> refinement;
 };

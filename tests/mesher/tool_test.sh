@@ -450,6 +450,8 @@ source "$here/tool_space_repair_test.sh"
 source "$here/tool_svr_test.sh"
 # shellcheck source=tool_threads_test.sh
 source "$here/tool_threads_test.sh"
+# shellcheck source=tool_out_of_core_test.sh
+source "$here/tool_out_of_core_test.sh"
 
 echo "== the cities of the world"
 expect 0 '7343 points' mesh "$data/places.node" -o cities.node

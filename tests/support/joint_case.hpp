@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "code_of.hpp"
 #include "facade/box_mesher.hpp"
 #include "facade/mesh_statically.hpp"
 #include "mesher/extra/generate.hpp"
@@ -20,17 +21,6 @@ namespace support {
 /// test framework does not listen.)
 inline void demand(bool holds, const std::string& text) {
   if (!holds) throw std::logic_error(text);
-}
-
-/// The code of the Error that run() throws; nothing if it throws none.
-template <class Run>
-std::optional<mesher::ErrorCode> code_of(Run&& run) {
-  try {
-    run();
-  } catch (const mesher::Error& error) {
-    return error.code();
-  }
-  return std::nullopt;
 }
 
 template <int D>

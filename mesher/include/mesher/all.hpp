@@ -13,6 +13,7 @@
 #include "mesher/mesher.hpp"
 #include "mesher/meshing.hpp"
 #include "mesher/names.hpp"
+#include "mesher/out_of_core.hpp"
 #include "mesher/periodic.hpp"
 #include "mesher/predicates.hpp"
 #include "mesher/read.hpp"

@@ -20,16 +20,16 @@ class CornerReach {
   [[nodiscard]] double reach2() const noexcept { return reach2_; }
   /// The same over the open corners; 0: there is none.
   [[nodiscard]] double open2() const noexcept { return open2_; }
-
- protected:
-  /// The corners are 0 .. count - 1, of which q2_, tolerance2_ and is_open_ are right.
-  /// Requires: open_.size() >= count.
-  void update_reach(std::size_t count) noexcept;
   /// Of the gap ball around a corner. Where the corner is known badly, as between neighbours in
   /// nearly one direction, the ball is larger by more than the corner's error.
   [[nodiscard]] double gap_radius(std::size_t i) const noexcept {
     return std::sqrt(q2_[i]) * (1 + 0x1p-30) + std::sqrt(tolerance2_[i]);
   }
+
+ protected:
+  /// The corners are 0 .. count - 1, of which q2_, tolerance2_ and is_open_ are right.
+  /// Requires: open_.size() >= count.
+  void update_reach(std::size_t count) noexcept;
 
   double reach2_ = 0;
   double open2_ = 0;

@@ -50,6 +50,7 @@ void Locate::operator()(S& s, VertexRef<D> p) const {
   auto& w = s.template environment<World<S, D>>();
   const Fixed<D> f = w.box.fixed(p->p);
   const int level = w.features.level(s, *p);
+  if constexpr (!S::kTraced) p->level = static_cast<std::int16_t>(level);
   w.vertices.insert(s, p);
   if (level >= kCoarser && w.vertices.searches()) {
     const Cell<D> c = MeshBox<D>::cell(f, level - kCoarser);

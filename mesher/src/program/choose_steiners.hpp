@@ -40,12 +40,25 @@ template <int D>
   return {.bucket = b, .phase = 1, .colour = buckets.colour(f, b), .order = morton<D>(f)};
 }
 
+/// A static run for one tile notes that the call about v with this key has its turn. Whether it is
+/// one.
+template <class S, int D, class KeyOf>
+bool begin_for_tile(World<S, D>& w, VertexRef<D> v, KeyOf&& key_of) {
+  if (S::kTraced || w.halo == nullptr) return false;
+  const sac::Key key = key_of(w.box.fixed(v->p));
+  w.halo->begin({Stage::steiner, kKeyWidths.rank(key), key.order, v->p});
+  return true;
+}
+
 // if w is a ComputeNN event on v: compute the exact nearest neighbour u to v; add Complete(v) with
 // key |uv|
 template <class S, int D>
 void ComputeNN::operator()(S& s, VertexRef<D> v, int b) const {
   auto& w = s.template environment<World<S, D>>();
+  const bool is_for_tile =
+      begin_for_tile(w, v, [&](const Fixed<D>& f) { return nearest_key(f, b); });
   const double nearest2 = w.vertices.nearest2(s, v);
+  if (is_for_tile) w.halo->looked({v->p, {}, std::sqrt(nearest2) * (1 + 0x1p-30)});
   w.post_complete(s, v, std::max(b, w.buckets().bucket(nearest2)));
 }
 
@@ -72,13 +85,17 @@ std::optional<VertexRef<D>> fill_at(S& s, World<S, D>& w, CellOf<D>& gaps, const
     if (!point.farther || !gaps.cuts(x->p)) w.fail_useless(v, *x);
     return x;
   };
-  if (!S::kTraced || w.border == nullptr) return fill();
+  if (!w.is_part()) return fill();
   try {
     const double nearest = kNearest * w.buckets().shortest(b);
     if (point.nearest2 < nearest * nearest) w.fail_useless(v, v);
     return fill();
   } catch (const Error& error) {
-    if constexpr (S::kTraced) w.border->fault(s, error);
+    if constexpr (S::kTraced) {
+      w.border->fault(s, error);
+    } else {
+      w.halo->fault(error);
+    }
     return std::nullopt;
   }
 }
@@ -105,7 +122,9 @@ Filled fill_gaps(S& s, World<S, D>& w, CellOf<D>& gaps, Staying<S, D>& stays, co
     w.require_room(s);
     gaps.cut((*x)->self);
     filled.inserts = true;
-    w.post_complete(s, *x, std::max(b + 1, w.buckets().bucket(point->nearest2)));
+    const int first = std::max(b + 1, w.buckets().bucket(point->nearest2));
+    if (w.halo != nullptr) w.halo->born((*x)->self, first);
+    w.post_complete(s, *x, first);
     w.post_star(s, *x);
   }
   return filled;
@@ -139,8 +158,13 @@ void Complete::operator()(S& s, VertexRef<D> v, int b) const {
     if (!w.owns(v->p)) [[unlikely]]
       return complete_for_another(s, w, v);
   }
+  const bool is_for_tile =
+      begin_for_tile(w, v, [&](const Fixed<D>& f) { return complete_key(w.buckets(), f, b); });
   if (is_settled(s, w, v, b)) return;
   const CellLoan<D> gaps = w.vertices.voronoi_cell(s, v, w.buckets().clip_radius(b));
+  if constexpr (D <= 3) {
+    if (is_for_tile) w.halo->looked_at_cell(*gaps);
+  }
   Staying<S, D> stays(w, *gaps);
   bool cuts = disencroach(s, w, v, b);
   conform(s, stays, b);

@@ -67,7 +67,9 @@ bool is_settled(S&, World<S, D>& w, VertexRef<D> v, int b) {
   if constexpr (S::kTraced) {
     return false;
   } else {
-    return !has_lines_at(w, v) && w.vertices.is_settled(v, w.buckets().clip_radius(b));
+    const double radius = w.buckets().clip_radius(b);
+    if (w.halo != nullptr && w.halo->notes(v->p, kReads<D> * radius)) return false;
+    return !has_lines_at(w, v) && w.vertices.is_settled(v, radius);
   }
 }
 

@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "borders/halo_border.hpp"
 #include "borders/tile_border.hpp"
 #include "geometry/grid.hpp"
 #include "index/features.hpp"
@@ -61,6 +62,7 @@ struct PointWorld {
   std::size_t most_records;  // while an update is under way, of vertices that come and that go
   TileBorder<D>* border = nullptr;  // of a tile; null: this is all
   std::vector<Agenda*> parts;       // of a tile: `steiner` by buckets, from the first on
+  HaloBorder<D>* halo = nullptr;    // of a static run for a tile; null: this is all
   const Names* names = nullptr;     // for messages; null: features have none
   std::conditional_t<S::kTraced, TracedOutput, PlainOutput<D>> plain;
   std::array<std::chrono::steady_clock::time_point, 4> marks{};
@@ -108,6 +110,8 @@ struct PointWorld {
   [[nodiscard]] bool owns(const Point<D>& p) const noexcept {
     return border == nullptr || border->owns(p);
   }
+  /// Whether it is for a part of the mesh, where a call may meet what will not be there in the end.
+  [[nodiscard]] bool is_part() const noexcept { return border != nullptr || halo != nullptr; }
   /// From here on vertices' neighbours are asked for. All that are not inserted by ChooseSteiners
   /// have records; in an update that does not matter.
   void begin_questions(S& s);

@@ -31,7 +31,7 @@ Error unpack_error(Unpacker& from) {
   const auto code = from.take<ErrorCode>();
   std::string message = from.take_text();
   FileLocation location = unpack_location(from);
-  auto features = from.take_all<Feature>();
+  auto features = from.take_all<mesher::Feature>();
   auto places = from.take_all<Position>();
   return {code, std::move(message), std::move(location), std::move(features), std::move(places)};
 }
