@@ -81,8 +81,7 @@ void bench_case(const std::string& family, std::size_t n, std::size_t tiles, int
       report.rounds, static_cast<double>(report.most_points) / static_cast<double>(n),
       static_cast<double>(report.all_points) / static_cast<double>(n), peak_mb());
   if (!setting.is_alone) {
-    const double one =
-        clock_of([&] { of_one_run = mesher::mesh_statically<D>(kept, options); });
+    const double one = clock_of([&] { of_one_run = mesher::mesh_statically<D>(kept, options); });
     std::printf(",\"one_run_s\":%.3f,\"ratio\":%.2f,\"equal\":%s,\"one_run_peak_mb\":%.0f", one,
                 seconds / one, mesh == of_one_run ? "true" : "false", peak_mb());
   }

@@ -15,10 +15,10 @@
 //       later call with the same points and options goes on with: tiles that are there are not made
 //       again. A file that was cut off or changed counts as not there.
 //
-// Memory: the points and, at the end, the mesh (with D = 2 some 75 bytes for each of its vertices);
-// meanwhile for each thread a run of the points of one tile and its halo, without a trace, and for
-// all what is near the tiles' borders. The folder needs 150 bytes a vertex in the plane, 350 in
-// space.
+// Memory: the points and, at the end, the mesh (with D = 2 some 85 bytes for each of its vertices);
+// meanwhile for each thread a run of the points of one tile and its halo, without a trace, and
+// the births across the tiles' borders. The folder needs some 110 bytes a vertex in the plane, up
+// to 600 in space.
 // Cost: for points that lie evenly, the calls near borders run twice. Where points surround empty
 // parts as large as a tile, all of them may come to be in its halo.
 #pragma once

@@ -11,7 +11,9 @@
 // has there, all tiles are right: tiles/halo_certificate.hpp.
 #pragma once
 
+#include <algorithm>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -77,7 +79,20 @@ class HaloBorder {
   [[nodiscard]] Born<D> birth(VertexHandle v) const noexcept {
     return v < born_.size() ? born_[v] : Born<D>();
   }
-  [[nodiscard]] const std::vector<Look>& looks() const noexcept { return looks_; }
+  /// Of looks at one ball the last one: who agree on all births there until then, agree on those
+  /// until an earlier turn.
+  [[nodiscard]] std::vector<Look> take_looks() {
+    const auto ball = [](const Look& a) {
+      return std::tie(a.ball.at, a.ball.center, a.ball.radius);
+    };
+    std::sort(looks_.begin(), looks_.end(), [&](const Look& a, const Look& b) {
+      return ball(a) != ball(b) ? ball(a) < ball(b) : b.turn < a.turn;
+    });
+    const auto end = std::unique(looks_.begin(), looks_.end(),
+                                 [&](const Look& a, const Look& b) { return ball(a) == ball(b); });
+    looks_.erase(end, looks_.end());
+    return std::move(looks_);
+  }
   [[nodiscard]] const std::optional<Error>& first_fault() const noexcept { return fault_; }
 
  private:

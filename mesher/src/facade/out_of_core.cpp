@@ -4,15 +4,16 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <mutex>
 #include <numeric>
 #include <thread>
 
+#include "borders/halo_reach.hpp"
 #include "facade/mesh_statically.hpp"
 #include "facade/settled.hpp"
 #include "geometry/box.hpp"
 #include "geometry/input_point.hpp"
 #include "geometry/place_hash.hpp"
-#include "index/feature_tree.hpp"
 #include "mesh/canonical.hpp"
 #include "mesher/predicates.hpp"
 #include "program/meter.hpp"
@@ -72,8 +73,10 @@ class Tiling {
                                     : ids[static_cast<std::size_t>(number)];
                }},
         watch_(control),
-        widths_(tiles_.size(), width),
         farthest_(tiles_.size(), 0) {
+    for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
+      reach_.emplace_back(tiles_.box_of(tile), width);
+    }
     report_.tiles = tiles_.size();
     open_store(points);
     deal(points);
@@ -81,15 +84,20 @@ class Tiling {
   }
 
   void run() {
-    std::vector<std::size_t> todo(tiles_.size());
-    std::iota(todo.begin(), todo.end(), std::size_t{0});
-    std::erase_if(todo, [&](std::size_t tile) { return is_kept(tile); });
+    std::vector<std::size_t> todo = all_tiles();
+    std::erase_if(todo, [&](std::size_t tile) { return store_->has_run(tile); });
+    report_.tiles_found = tiles_.size() - todo.size();
     while (true) {
       run_tiles(todo);
-      todo = disagreeing();
+      const std::vector<std::vector<Point<D>>> wrong = disagreements();
       ++report_.rounds;
+      todo.clear();
+      for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
+        if (wrong[tile].empty()) continue;
+        reach_[tile].widen(wrong[tile]);
+        todo.push_back(tile);
+      }
       if (todo.empty()) break;
-      for (const std::size_t tile : todo) widths_[tile] *= 2;
     }
     require_no_fault();
   }
@@ -245,14 +253,6 @@ class Tiling {
     });
   }
 
-  [[nodiscard]] bool is_kept(std::size_t tile) {
-    const std::optional<double> width = store_->width(tile);
-    if (!width) return false;
-    widths_[tile] = *width;
-    ++report_.tiles_found;
-    return true;
-  }
-
   void run_tiles(const std::vector<std::size_t>& which) {
     std::atomic<std::uint64_t> calls = 0, all = 0, most = 0;
     for_each_of(which, [&](std::size_t tile) {
@@ -264,7 +264,7 @@ class Tiling {
       std::uint64_t before = most;
       while (before < points.size() && !most.compare_exchange_weak(before, points.size())) {
       }
-      store_->put_run(tile, std::move(run), widths_[tile]);
+      store_->put_run(tile, std::move(run));
     });
     report_.runs += which.size();
     report_.calls += calls;
@@ -272,12 +272,15 @@ class Tiling {
     report_.most_points = std::max(report_.most_points, static_cast<std::size_t>(most.load()));
   }
   [[nodiscard]] std::vector<HaloPoint<D>> points_around(std::size_t tile) const {
+    const HaloReach<D>& reach = reach_[tile];
+    const double most = reach.most();
     std::vector<HaloPoint<D>> points;
     for (std::size_t other = 0; other < tiles_.size(); ++other) {
-      if (tiles_.distance_between(tile, other) > widths_[tile] * farthest_[other]) continue;
+      if (tiles_.distance_between(tile, other) > most * farthest_[other]) continue;
       const auto some = store_->points(other);
       for (const SpacedPoint<D>& one : *some) {
-        if (other == tile || tiles_.distance(tile, one.point.p) <= widths_[tile] * one.spacing) {
+        const Point<D>& p = one.point.p;
+        if (other == tile || tiles_.distance(tile, p) <= reach.at(p) * one.spacing) {
           points.push_back(one.point);
         }
       }
@@ -285,11 +288,16 @@ class Tiling {
     return points;
   }
 
-  // Those whose halo is too narrow. The first call that is wrong, of all, is one of a tile that has
-  // seen something else of another than is there; or it sees in its own tile a birth by another's
-  // call that the other does not know.
-  [[nodiscard]] std::vector<std::size_t> disagreeing() {
-    std::vector<std::atomic<bool>> disagrees(tiles_.size());
+  // By tile: where its halo is too narrow. The first call that is wrong, of all, is one of a tile
+  // that has seen something else of another than is there; or it sees in its own tile a birth by
+  // another's call that the other does not know.
+  [[nodiscard]] std::vector<std::vector<Point<D>>> disagreements() {
+    std::vector<std::vector<Point<D>>> wrong(tiles_.size());
+    std::mutex guard;
+    const auto add = [&](std::size_t tile, const std::vector<Point<D>>& places) {
+      const std::lock_guard lock(guard);
+      wrong[tile].insert(wrong[tile].end(), places.begin(), places.end());
+    };
     std::vector<std::shared_ptr<const HaloView<D>>> views(tiles_.size());
     for (std::size_t tile = 0; tile < tiles_.size(); ++tile) views[tile] = store_->view(tile);
     for_each_of(all_tiles(), [&](std::size_t tile) {
@@ -302,15 +310,11 @@ class Tiling {
       }
       const HaloWitness<D> witness(tiles_, tile, *vertices, looks);
       for (std::size_t other = 0; other < tiles_.size(); ++other) {
-        if (!witness.confirms(looks[other])) disagrees[other] = true;
-        if (!agree_on_births(*views[other], other, *views[tile], tile)) disagrees[tile] = true;
+        add(other, witness.denied(looks[other]));
+        add(tile, disputed_births(*views[other], other, *views[tile], tile));
       }
     });
-    std::vector<std::size_t> which;
-    for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
-      if (disagrees[tile]) which.push_back(tile);
-    }
-    return which;
+    return wrong;
   }
 
   void require_no_fault() const {
@@ -332,8 +336,8 @@ class Tiling {
   Options<D> of_a_tile_;
   HaloInput<D> input_;
   TilingWatch watch_;
-  std::vector<double> widths_;    // of halos
-  std::vector<double> farthest_;  // by tile: the largest spacing of its points
+  std::vector<HaloReach<D>> reach_;  // of halos
+  std::vector<double> farthest_;     // by tile: the largest spacing of its points
   std::unique_ptr<HaloStore<D>> store_;
   FolderStore<D>* folder_ = nullptr;
 };

@@ -172,7 +172,7 @@ class Run {
     if (born.turn.stage == Stage::quadtree || !border_.owns(born.turn.p)) return;
     to.push_back({input_.tiles.owner(v.p), v.p, born});
   }
-  [[nodiscard]] std::vector<HaloLook<D>> looks() const {
+  [[nodiscard]] std::vector<HaloLook<D>> looks() {
     std::vector<Point<D>> places;
     std::vector<std::size_t> owners;
     places.reserve(others_.size());
@@ -183,7 +183,7 @@ class Run {
     }
     const PlaceTree<D> around(places);
     std::vector<HaloLook<D>> looks;
-    for (const auto& look : border_.looks()) {
+    for (const auto& look : border_.take_looks()) {
       const auto first = static_cast<std::ptrdiff_t>(looks.size());
       input_.tiles.for_each_met(look.ball, [&](std::size_t tile) {
         if (tile != tile_) looks.push_back({tile, look.turn, look.ball, 0});

@@ -101,48 +101,39 @@ auto FolderStore<D>::points(std::size_t tile) const -> Kept<Points> {
   return std::make_shared<const Points>(Unpacker(bytes).take_all<SpacedPoint<D>>());
 }
 
-// The view comes last: who has that has all. Its width is that of the others.
+// The view goes first and comes last: who has that has all of one run.
 template <int D>
-void FolderStore<D>::put_run(std::size_t tile, HaloRun<D> run, double width) {
+void FolderStore<D>::put_run(std::size_t tile, HaloRun<D> run) {
   platform::remove(path("view", tile));
   Packer content;
-  content.put(width);
   content.put_all(run.vertices.places);
   content.put_all(run.vertices.kinds);
   content.put_all(run.vertices.born);
   save(path("vertices", tile), content);
   content.clear();
-  content.put(width);
   content.put_all(run.simplices.foreign);
   content.put_all(run.simplices.simplices);
   save(path("simplices", tile), content);
   content.clear();
-  content.put(width);
   content.put_all(run.looks);
   save(path("looks", tile), content);
   content.clear();
-  content.put(width);
   content.put_all(table(run.looks));
   pack(run.view, content);
   save(path("view", tile), content);
 }
 template <int D>
-std::optional<double> FolderStore<D>::width(std::size_t tile) const {
-  std::optional<double> width;
+bool FolderStore<D>::has_run(std::size_t tile) const {
+  bool has_all = true;
   for (const char* what : {"view", "vertices", "simplices", "looks"}) {
-    const std::optional<Bytes> bytes = load(path(what, tile));
-    if (!bytes) return std::nullopt;
-    const auto of_this = Unpacker(*bytes).take<double>();
-    if (width && *width != of_this) return std::nullopt;
-    width = of_this;
+    has_all = has_all && load(path(what, tile)).has_value();
   }
-  return width;
+  return has_all;
 }
 template <int D>
 auto FolderStore<D>::vertices(std::size_t tile) const -> Kept<HaloVertices<D>> {
   const Bytes bytes = must_load(path("vertices", tile));
   Unpacker from(bytes);
-  static_cast<void>(from.take<double>());
   auto vertices = std::make_shared<HaloVertices<D>>();
   vertices->places = from.take_all<Point<D>>();
   vertices->kinds = from.take_all<VertexKind>();
@@ -153,7 +144,6 @@ template <int D>
 auto FolderStore<D>::simplices(std::size_t tile) const -> Kept<HaloSimplices<D>> {
   const Bytes bytes = must_load(path("simplices", tile));
   Unpacker from(bytes);
-  static_cast<void>(from.take<double>());
   auto simplices = std::make_shared<HaloSimplices<D>>();
   simplices->foreign = from.take_all<Point<D>>();
   simplices->simplices = from.take_all<std::array<std::uint32_t, D + 1>>();
@@ -163,7 +153,6 @@ template <int D>
 auto FolderStore<D>::view(std::size_t tile) const -> Kept<HaloView<D>> {
   const Bytes bytes = must_load(path("view", tile));
   Unpacker from(bytes);
-  static_cast<void>(from.take<double>());
   static_cast<void>(from.take_all<LooksAt>());
   auto view = std::make_shared<HaloView<D>>();
   view->gives = from.take_all<HaloBirth<D>>();
@@ -176,16 +165,15 @@ template <int D>
 auto FolderStore<D>::looks(std::size_t by, std::size_t at) const -> typename HaloStore<D>::Looks {
   const Bytes bytes = must_load(path("view", by));
   Unpacker from(bytes);
-  static_cast<void>(from.take<double>());
   const std::vector<LooksAt> all = from.take_all<LooksAt>();
   const auto part = those_of(at, all);
   if (part.empty()) return {};
   const std::string path = this->path("looks", by);
   std::ifstream file(path, std::ios::binary);
   const auto looks = std::make_shared<std::vector<HaloLook<D>>>(part[0].count);
-  // Behind the header, the width and the number of all.
+  // Behind the header and the number of all.
   const std::uint64_t begin =
-      sizeof(Header) + sizeof(double) + sizeof(std::uint64_t) + part[0].begin * sizeof(HaloLook<D>);
+      sizeof(Header) + sizeof(std::uint64_t) + part[0].begin * sizeof(HaloLook<D>);
   file.seekg(static_cast<std::streamoff>(begin));
   file.read(reinterpret_cast<char*>(looks->data()),
             static_cast<std::streamsize>(looks->size() * sizeof(HaloLook<D>)));

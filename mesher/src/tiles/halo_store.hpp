@@ -34,10 +34,9 @@ class HaloStore {
   virtual ~HaloStore() = default;
   virtual void put_points(std::size_t tile, Points points) = 0;
   [[nodiscard]] virtual Kept<Points> points(std::size_t tile) const = 0;
-  /// In place of an earlier one, if there is one. `width`: of its halo.
-  virtual void put_run(std::size_t tile, HaloRun<D> run, double width) = 0;
-  /// The width of the halo of the tile's run, if there is one.
-  [[nodiscard]] virtual std::optional<double> width(std::size_t tile) const = 0;
+  /// In place of an earlier one, if there is one.
+  virtual void put_run(std::size_t tile, HaloRun<D> run) = 0;
+  [[nodiscard]] virtual bool has_run(std::size_t tile) const = 0;
   /// Requires: there is a run.
   [[nodiscard]] virtual Kept<HaloVertices<D>> vertices(std::size_t tile) const = 0;
   [[nodiscard]] virtual Kept<HaloSimplices<D>> simplices(std::size_t tile) const = 0;
@@ -63,32 +62,26 @@ class MemoryStore final : public HaloStore<D> {
     points_[tile] = std::make_shared<const Points>(std::move(points));
   }
   [[nodiscard]] Kept<Points> points(std::size_t tile) const override { return points_[tile]; }
-  void put_run(std::size_t tile, HaloRun<D> run, double width) override {
-    runs_[tile] = {width, std::make_shared<const HaloRun<D>>(std::move(run))};
+  void put_run(std::size_t tile, HaloRun<D> run) override {
+    runs_[tile] = std::make_shared<const HaloRun<D>>(std::move(run));
   }
-  [[nodiscard]] std::optional<double> width(std::size_t tile) const override {
-    return runs_[tile].run == nullptr ? std::nullopt : std::optional(runs_[tile].width);
-  }
+  [[nodiscard]] bool has_run(std::size_t tile) const override { return runs_[tile] != nullptr; }
   [[nodiscard]] Kept<HaloVertices<D>> vertices(std::size_t tile) const override {
-    return {runs_[tile].run, &runs_[tile].run->vertices};
+    return {runs_[tile], &runs_[tile]->vertices};
   }
   [[nodiscard]] Kept<HaloSimplices<D>> simplices(std::size_t tile) const override {
-    return {runs_[tile].run, &runs_[tile].run->simplices};
+    return {runs_[tile], &runs_[tile]->simplices};
   }
   [[nodiscard]] Kept<HaloView<D>> view(std::size_t tile) const override {
-    return {runs_[tile].run, &runs_[tile].run->view};
+    return {runs_[tile], &runs_[tile]->view};
   }
   [[nodiscard]] typename HaloStore<D>::Looks looks(std::size_t by, std::size_t at) const override {
-    return {runs_[by].run, those_of(at, runs_[by].run->looks)};
+    return {runs_[by], those_of(at, runs_[by]->looks)};
   }
 
  private:
-  struct Stored {
-    double width = 0;
-    std::shared_ptr<const HaloRun<D>> run;
-  };
   std::vector<Kept<Points>> points_;
-  std::vector<Stored> runs_;
+  std::vector<Kept<HaloRun<D>>> runs_;
 };
 
 /// Files in a folder. A file is complete or not there: it is written under another name. What a
@@ -106,8 +99,8 @@ class FolderStore final : public HaloStore<D> {
 
   void put_points(std::size_t tile, Points points) override;
   [[nodiscard]] Kept<Points> points(std::size_t tile) const override;
-  void put_run(std::size_t tile, HaloRun<D> run, double width) override;
-  [[nodiscard]] std::optional<double> width(std::size_t tile) const override;
+  void put_run(std::size_t tile, HaloRun<D> run) override;
+  [[nodiscard]] bool has_run(std::size_t tile) const override;
   [[nodiscard]] Kept<HaloVertices<D>> vertices(std::size_t tile) const override;
   [[nodiscard]] Kept<HaloSimplices<D>> simplices(std::size_t tile) const override;
   [[nodiscard]] Kept<HaloView<D>> view(std::size_t tile) const override;

@@ -236,9 +236,8 @@ std::vector<Message<D>> TileMesher<D>::collect(Changes* changes) {
   const auto log = world_->vertices.log();
   Doubtful doubtful(askers_.size());
   for (const VertexHandle h : log.touched) {
-    for (std::size_t t = 0; t < askers_.size(); ++t) {
-      if (askers_[t].told.count(h) != 0) doubtful[t].push_back(h);
-    }
+    const auto [begin, end] = told_to_.equal_range(h);
+    for (auto it = begin; it != end; ++it) doubtful[it->second].push_back(h);
   }
   collect_looks(out, doubtful);
   collect_births(out);
@@ -257,7 +256,9 @@ template <int D>
 void TileMesher<D>::note(std::size_t tile, VertexHandle h, Doubtful& doubtful) {
   const Vertex<D>& v = world_->vertices.pool()[h];
   if (v.boundary || !border_->owns(v.p)) return;
-  if (askers_[tile].told.try_emplace(h).second) doubtful[tile].push_back(h);
+  if (!askers_[tile].told.try_emplace(h).second) return;
+  told_to_.emplace(h, static_cast<std::uint32_t>(tile));
+  doubtful[tile].push_back(h);
 }
 
 // Looks that came and went, or went and came, are as they were. Who is asked is told, too, whom the
@@ -327,6 +328,13 @@ void TileMesher<D>::collect_answers(Doubtful& doubtful) {
 }
 
 template <int D>
+void TileMesher<D>::forget_told(std::size_t tile, VertexHandle h) {
+  askers_[tile].told.erase(h);
+  const auto [begin, end] = told_to_.equal_range(h);
+  told_to_.erase(std::find_if(begin, end, [&](const auto& one) { return one.second == tile; }));
+}
+
+template <int D>
 void TileMesher<D>::tell(Doubtful& doubtful, std::vector<Message<D>>& out) {
   using Kind = typename Message<D>::Kind;
   const auto& pool = world_->vertices.pool();
@@ -336,7 +344,7 @@ void TileMesher<D>::tell(Doubtful& doubtful, std::vector<Message<D>>& out) {
               [&](VertexHandle a, VertexHandle b) { return pool[a].p < pool[b].p; });
     some.erase(std::unique(some.begin(), some.end()), some.end());
     for (const VertexHandle h : some) {
-      std::optional<Turn<D>>& told = askers_[t].told[h];
+      std::optional<Turn<D>>& told = askers_[t].told.at(h);
       const auto to = static_cast<std::uint32_t>(t);
       const std::optional<Turn<D>> turn = birth_for(to, pool[h]);
       if (turn != told) {
@@ -344,7 +352,7 @@ void TileMesher<D>::tell(Doubtful& doubtful, std::vector<Message<D>>& out) {
         if (turn) out.push_back({Kind::arrive, to, {}, {pool[h].p, -1, *turn}});
         told = turn;
       }
-      if (!pool[h].alive) askers_[t].told.erase(h);
+      if (!pool[h].alive) forget_told(t, h);
     }
   }
 }

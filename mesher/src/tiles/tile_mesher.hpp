@@ -164,6 +164,7 @@ class TileMesher {
   void collect_answers(Doubtful& doubtful);
   void note(std::size_t tile, VertexHandle h, Doubtful& doubtful);
   void tell(Doubtful& doubtful, std::vector<Message<D>>& out);
+  void forget_told(std::size_t tile, VertexHandle h);
   [[nodiscard]] std::optional<Turn<D>> birth_for(std::uint32_t asker, const Vertex<D>& v) const;
   [[nodiscard]] bool has_arrived(std::size_t from, const Point<D>& p, const Turn<D>& turn) const;
   void count_own(const std::vector<VertexHandle>& touched) noexcept;
@@ -177,8 +178,9 @@ class TileMesher {
   std::vector<Order> orders_;
   std::size_t own_vertices_ = 0;
   TileCounts counts_;
-  std::vector<Asked> asked_;   // by tile
-  std::vector<Asker> askers_;  // by tile
+  std::vector<Asked> asked_;                                      // by tile
+  std::vector<Asker> askers_;                                     // by tile
+  std::unordered_multimap<VertexHandle, std::uint32_t> told_to_;  // whose Asker::told has a vertex
   std::unordered_map<std::uint32_t, Question> questions_;
   std::uint32_t next_question_ = 0;
   std::unordered_multimap<Point<D>, From, TurnHash<D>> from_;  // whose births have arrived

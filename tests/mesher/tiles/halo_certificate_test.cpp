@@ -37,10 +37,10 @@ struct Tiles {
   }
   [[nodiscard]] bool confirmed(std::size_t tile, std::size_t other) const {
     const std::vector<std::span<const HaloLook<D>>> looks{those_of(tile, runs[other].looks)};
-    return HaloWitness<D>(tiles, tile, runs[tile].vertices, looks).confirms(looks[0]);
+    return HaloWitness<D>(tiles, tile, runs[tile].vertices, looks).denied(looks[0]).empty();
   }
   [[nodiscard]] bool agree(std::size_t from, std::size_t to) const {
-    return agree_on_births(runs[from].view, from, runs[to].view, to);
+    return disputed_births(runs[from].view, from, runs[to].view, to).empty();
   }
   [[nodiscard]] bool all_agree() const {
     for (std::size_t a = 0; a < runs.size(); ++a) {
