@@ -28,16 +28,6 @@ class HaloTiles {
   [[nodiscard]] std::size_t owner(const Point<D>& p) const noexcept {
     return is_inside(p) ? inner_.owner(p) : rim();
   }
-  /// Of a tile; of the rim the box that it is around.
-  [[nodiscard]] Box<D> box_of(std::size_t tile) const noexcept {
-    if (tile == rim()) return box_;
-    Box<D> box = inner_.box(tile);
-    for (std::size_t i = 0; i < D; ++i) {
-      box.lo[i] = std::max(box.lo[i], box_.lo[i]);
-      box.hi[i] = std::min(box.hi[i], box_.hi[i]);
-    }
-    return box;
-  }
   /// Of p from the tile; 0 in it, and perhaps beside it.
   [[nodiscard]] double distance(std::size_t tile, const Point<D>& p) const noexcept {
     if (tile == rim()) return std::max(depth(p), 0.0);
@@ -52,7 +42,7 @@ class HaloTiles {
   /// From p to where the tile ends, at least, but for rounding; below 0 outside. Two places differ
   /// in this by no more than they are apart.
   [[nodiscard]] double distance_to_end(std::size_t tile, const Point<D>& p) const noexcept {
-    const Box<D> box = box_of(tile);
+    const Box<D> box = tile == rim() ? box_ : box_of(tile);
     double inside = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < D; ++i) {
       inside = std::min({inside, p[i] - box.lo[i], box.hi[i] - p[i]});
@@ -64,7 +54,7 @@ class HaloTiles {
   /// Whether the ball is surely in the tile.
   [[nodiscard]] bool holds(std::size_t tile, const RelativeBall<D>& ball) const noexcept {
     const Box<D> area = ball.box();
-    const Box<D> box = box_of(tile);
+    const Box<D> box = tile == rim() ? box_ : box_of(tile);
     bool is_apart = false, is_within = true;
     for (std::size_t i = 0; i < D; ++i) {
       is_apart = is_apart || area.hi[i] < box.lo[i] || area.lo[i] > box.hi[i];
@@ -89,6 +79,14 @@ class HaloTiles {
       depth = std::min({depth, p[i] - box_.lo[i], box_.hi[i] - p[i]});
     }
     return depth;
+  }
+  [[nodiscard]] Box<D> box_of(std::size_t tile) const noexcept {
+    Box<D> box = inner_.box(tile);
+    for (std::size_t i = 0; i < D; ++i) {
+      box.lo[i] = std::max(box.lo[i], box_.lo[i]);
+      box.hi[i] = std::min(box.hi[i], box_.hi[i]);
+    }
+    return box;
   }
   // Whether the ball may meet the box.
   [[nodiscard]] static bool meets(const RelativeBall<D>& ball, const Box<D>& box) noexcept {

@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <mutex>
 #include <numeric>
 #include <thread>
 
-#include "borders/halo_reach.hpp"
 #include "facade/mesh_statically.hpp"
 #include "facade/settled.hpp"
 #include "geometry/box.hpp"
@@ -73,10 +71,8 @@ class Tiling {
                                     : ids[static_cast<std::size_t>(number)];
                }},
         watch_(control),
+        widths_(tiles_.size(), width),
         farthest_(tiles_.size(), 0) {
-    for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
-      reach_.emplace_back(tiles_.box_of(tile), width);
-    }
     report_.tiles = tiles_.size();
     open_store(points);
     deal(points);
@@ -89,15 +85,10 @@ class Tiling {
     report_.tiles_found = tiles_.size() - todo.size();
     while (true) {
       run_tiles(todo);
-      const std::vector<std::vector<Point<D>>> wrong = disagreements();
+      todo = disagreeing();
       ++report_.rounds;
-      todo.clear();
-      for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
-        if (wrong[tile].empty()) continue;
-        reach_[tile].widen(wrong[tile]);
-        todo.push_back(tile);
-      }
       if (todo.empty()) break;
+      for (const std::size_t tile : todo) widths_[tile] *= 2;
     }
     require_no_fault();
   }
@@ -272,15 +263,12 @@ class Tiling {
     report_.most_points = std::max(report_.most_points, static_cast<std::size_t>(most.load()));
   }
   [[nodiscard]] std::vector<HaloPoint<D>> points_around(std::size_t tile) const {
-    const HaloReach<D>& reach = reach_[tile];
-    const double most = reach.most();
     std::vector<HaloPoint<D>> points;
     for (std::size_t other = 0; other < tiles_.size(); ++other) {
-      if (tiles_.distance_between(tile, other) > most * farthest_[other]) continue;
+      if (tiles_.distance_between(tile, other) > widths_[tile] * farthest_[other]) continue;
       const auto some = store_->points(other);
       for (const SpacedPoint<D>& one : *some) {
-        const Point<D>& p = one.point.p;
-        if (other == tile || tiles_.distance(tile, p) <= reach.at(p) * one.spacing) {
+        if (other == tile || tiles_.distance(tile, one.point.p) <= widths_[tile] * one.spacing) {
           points.push_back(one.point);
         }
       }
@@ -288,16 +276,11 @@ class Tiling {
     return points;
   }
 
-  // By tile: where its halo is too narrow. The first call that is wrong, of all, is one of a tile
-  // that has seen something else of another than is there; or it sees in its own tile a birth by
-  // another's call that the other does not know.
-  [[nodiscard]] std::vector<std::vector<Point<D>>> disagreements() {
-    std::vector<std::vector<Point<D>>> wrong(tiles_.size());
-    std::mutex guard;
-    const auto add = [&](std::size_t tile, const std::vector<Point<D>>& places) {
-      const std::lock_guard lock(guard);
-      wrong[tile].insert(wrong[tile].end(), places.begin(), places.end());
-    };
+  // Those whose halo is too narrow. The first call that is wrong, of all, is one of a tile that has
+  // seen something else of another than is there; or it sees in its own tile a birth by another's
+  // call that the other does not know.
+  [[nodiscard]] std::vector<std::size_t> disagreeing() {
+    std::vector<std::atomic<bool>> disagrees(tiles_.size());
     std::vector<std::shared_ptr<const HaloView<D>>> views(tiles_.size());
     for (std::size_t tile = 0; tile < tiles_.size(); ++tile) views[tile] = store_->view(tile);
     for_each_of(all_tiles(), [&](std::size_t tile) {
@@ -310,11 +293,15 @@ class Tiling {
       }
       const HaloWitness<D> witness(tiles_, tile, *vertices, looks);
       for (std::size_t other = 0; other < tiles_.size(); ++other) {
-        add(other, witness.denied(looks[other]));
-        add(tile, disputed_births(*views[other], other, *views[tile], tile));
+        if (!witness.confirms(looks[other])) disagrees[other] = true;
+        if (!agree_on_births(*views[other], other, *views[tile], tile)) disagrees[tile] = true;
       }
     });
-    return wrong;
+    std::vector<std::size_t> which;
+    for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
+      if (disagrees[tile]) which.push_back(tile);
+    }
+    return which;
   }
 
   void require_no_fault() const {
@@ -336,8 +323,8 @@ class Tiling {
   Options<D> of_a_tile_;
   HaloInput<D> input_;
   TilingWatch watch_;
-  std::vector<HaloReach<D>> reach_;  // of halos
-  std::vector<double> farthest_;     // by tile: the largest spacing of its points
+  std::vector<double> widths_;    // of halos
+  std::vector<double> farthest_;  // by tile: the largest spacing of its points
   std::unique_ptr<HaloStore<D>> store_;
   FolderStore<D>* folder_ = nullptr;
 };

@@ -17,9 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "tiles/halo_run.hpp"
@@ -37,15 +35,10 @@ class HaloWitness {
               std::span<const Looks> looks)
       : vertices_(vertices), seen_(seen(tiles, tile, vertices, looks)), tree_(places()) {}
 
-  /// (1): where some of the looks have seen something else than there is. Cost: O(log n) each.
-  [[nodiscard]] std::vector<Point<D>> denied(Looks looks) const;
+  /// (1), of some of the looks. Cost: O(log n) each.
+  [[nodiscard]] bool confirms(Looks looks) const;
 
  private:
-  static Point<D> middle(const RelativeBall<D>& ball) noexcept {
-    Point<D> p = ball.at;
-    for (std::size_t i = 0; i < D; ++i) p[i] += ball.center[i];
-    return p;
-  }
   static std::vector<std::uint32_t> seen(const HaloTiles<D>& tiles, std::size_t tile,
                                          const HaloVertices<D>& vertices,
                                          std::span<const Looks> looks);
@@ -68,7 +61,9 @@ std::vector<std::uint32_t> HaloWitness<D>::seen(const HaloTiles<D>& tiles, std::
   double deepest = 0;
   for (const Looks some : looks) {
     for (const HaloLook<D>& look : some) {
-      const double depth = tiles.distance_to_end(tile, middle(look.ball)) + look.ball.radius;
+      Point<D> center = look.ball.at;
+      for (std::size_t i = 0; i < D; ++i) center[i] += look.ball.center[i];
+      const double depth = tiles.distance_to_end(tile, center) + look.ball.radius;
       deepest = std::max(deepest, depth + 0x1p-40 * (std::abs(depth) + look.ball.radius));
     }
   }
@@ -80,8 +75,7 @@ std::vector<std::uint32_t> HaloWitness<D>::seen(const HaloTiles<D>& tiles, std::
 }
 
 template <int D>
-std::vector<Point<D>> HaloWitness<D>::denied(Looks looks) const {
-  std::vector<Point<D>> denied;
+bool HaloWitness<D>::confirms(Looks looks) const {
   for (const HaloLook<D>& look : looks) {
     std::uint64_t seen = 0;
     tree_.for_each_in(look.ball, [&](std::uint32_t k) {
@@ -89,28 +83,19 @@ std::vector<Point<D>> HaloWitness<D>::denied(Looks looks) const {
       const Born<D>& born = vertices_.born[i];
       if (born.turn < look.turn) seen += digest<D>(vertices_.places[i], born);
     });
-    if (seen != look.seen) denied.push_back(middle(look.ball));
+    if (seen != look.seen) return false;
   }
-  return denied;
+  return true;
 }
 
-/// (2): the births in the tile `to` by calls of `from` that only one of them knows.
+/// (2), of births in the tile `to` by calls of `from`.
 template <int D>
-[[nodiscard]] std::vector<Point<D>> disputed_births(const HaloView<D>& from_view, std::size_t from,
-                                                    const HaloView<D>& to_view, std::size_t to) {
-  const auto named = [](std::span<const HaloBirth<D>> births) {
-    std::vector<std::pair<Point<D>, Born<D>>> named;
-    for (const HaloBirth<D>& birth : births) named.emplace_back(birth.p, birth.born);
-    return named;
-  };
-  const auto given = named(those_of(to, from_view.gives));
-  const auto received = named(those_of(from, to_view.receives));
-  std::vector<std::pair<Point<D>, Born<D>>> disputed;
-  std::set_symmetric_difference(given.begin(), given.end(), received.begin(), received.end(),
-                                std::back_inserter(disputed));
-  std::vector<Point<D>> places;
-  for (const auto& [p, born] : disputed) places.push_back(p);
-  return places;
+[[nodiscard]] bool agree_on_births(const HaloView<D>& from_view, std::size_t from,
+                                   const HaloView<D>& to_view, std::size_t to) {
+  const auto given = those_of(to, from_view.gives);
+  const auto received = those_of(from, to_view.receives);
+  return std::equal(given.begin(), given.end(), received.begin(), received.end(),
+                    [](const auto& a, const auto& b) { return a.p == b.p && a.born == b.born; });
 }
 
 }  // namespace mesher::detail

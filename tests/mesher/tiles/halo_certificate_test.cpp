@@ -37,10 +37,10 @@ struct Tiles {
   }
   [[nodiscard]] bool confirmed(std::size_t tile, std::size_t other) const {
     const std::vector<std::span<const HaloLook<D>>> looks{those_of(tile, runs[other].looks)};
-    return HaloWitness<D>(tiles, tile, runs[tile].vertices, looks).denied(looks[0]).empty();
+    return HaloWitness<D>(tiles, tile, runs[tile].vertices, looks).confirms(looks[0]);
   }
   [[nodiscard]] bool agree(std::size_t from, std::size_t to) const {
-    return disputed_births(runs[from].view, from, runs[to].view, to).empty();
+    return agree_on_births(runs[from].view, from, runs[to].view, to);
   }
   [[nodiscard]] bool all_agree() const {
     for (std::size_t a = 0; a < runs.size(); ++a) {
