@@ -44,7 +44,7 @@ class TracedSpace {
   /// Brings the trace up to date. What it throws leaves the last state.
   sac::Counts update() {
     try {
-      const sac::Counts counts = engine_->propagate();
+      const sac::Counts counts = engine_->propagate([&] { world_->vertices.follow(); });
       commit();
       return counts;
     } catch (...) {
@@ -133,11 +133,7 @@ inline void TracedSpace::erase(const Part& part) {
 inline SpaceResult TracedSpace::result() const {
   const auto& vertices = world_->vertices;
   std::vector<std::array<mesher::detail::VertexHandle, 4>> simplices;
-  vertices.pool().for_each([&](const Vertex& v) {
-    if (!v.alive) return;
-    mesher::detail::for_each_own_simplex(vertices.pool(), v, vertices.ring(v),
-                                         [&](const auto& t) { simplices.push_back(t); });
-  });
+  vertices.for_each_simplex([&](const auto& t) { simplices.push_back(t); });
   return space_result(*world_, simplices);
 }
 

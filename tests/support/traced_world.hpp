@@ -91,7 +91,7 @@ class TracedWorld {
   /// Brings the trace up to date. What it throws leaves the last state.
   sac::Counts update() {
     try {
-      const sac::Counts counts = engine_->propagate();
+      const sac::Counts counts = engine_->propagate([&] { world_->vertices.follow(); });
       commit();
       return counts;
     } catch (...) {
@@ -125,20 +125,14 @@ class TracedWorld {
 inline mesher::Mesh<2> TracedWorld::mesh() const {
   const auto& vertices = world_->vertices;
   const auto& pool = vertices.pool();
-  std::vector<mesher::detail::VertexHandle> live;
   std::vector<std::array<mesher::detail::VertexHandle, 3>> triangles;
-  pool.for_each([&](const Vertex& v) {
-    if (!v.alive) return;
-    live.push_back(v.self);
-    mesher::detail::for_each_own_simplex(pool, v, vertices.ring(v),
-                                         [&](const auto& t) { triangles.push_back(t); });
-  });
+  vertices.for_each_simplex([&](const auto& t) { triangles.push_back(t); });
   std::vector<mesher::detail::LineEdge> edges;
   world_->leaves.for_each([&](const mesher::detail::Leaf& leaf) {
     edges.push_back({vertices.tree().find(leaf.lo)->self, vertices.tree().find(leaf.hi)->self,
                      lines_.at(leaf.piece.segment)});
   });
-  return mesher::detail::canonical(pool, live, triangles, {edges, {}});
+  return mesher::detail::canonical(pool, vertices.live_vertices(), triangles, {edges, {}});
 }
 
 }  // namespace support

@@ -120,7 +120,7 @@ refuse 2 'error[bad_option]' distance before.trace
 echo "== show"
 expect 0 '0 refine()' show before.trace --limit 1
 expect 0 '1 drain(segments)' show before.trace --limit 2
-expect 0 'star((' show before.trace
+expect 0 'complete((' show before.trace
 [[ $("$traces" show before.trace --limit 7 | wc -l) == 7 ]] || fail "--limit 7 is not 7 lines"
 
 expect 0 '  nearest (' show edges.trace

@@ -45,6 +45,10 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     stars_ = stars;
   }
   [[nodiscard]] bool owns(const Point<D>& p) const noexcept { return all_.owns(self_, p); }
+  /// Whether nothing beyond the territory concerns who looks so far around v.
+  [[nodiscard]] bool holds(const Vertex<D>& v, const Reach<D>& reach) const noexcept {
+    return is_inside(area_of(v, reach));
+  }
   [[nodiscard]] Turn<D> turn_of(const sac::Call& call) const noexcept {
     const Stage stage = call.work_queue == quadtree_ ? Stage::quadtree
                         : call.work_queue == stars_  ? Stage::stars
@@ -162,7 +166,7 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
   }
 
   void looked(const Vertex<D>& center, const Observation<D>& o, double radius) override {
-    const Box<D> area = area_of(center, o);
+    const Box<D> area = area_of(center, o.reach);
     if (is_inside(area)) return;
     Look<D> look{center.p, radius, turn_of(engine_.call(o.call))};
     make_room(looks_, crossing_.size() + 1);
@@ -170,7 +174,7 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     looks_.push_back({look, area, &o, 1});
   }
   void forgot(const Vertex<D>& center, const Observation<D>& o) noexcept override {
-    if (crossing_.empty() || is_inside(area_of(center, o))) return;
+    if (crossing_.empty() || holds(center, o.reach)) return;
     const auto it = crossing_.find(engine_.arena().handle_of(&o));
     if (it == crossing_.end()) return;
     looks_.push_back({it->second.first, it->second.second, &o, -1});
@@ -311,8 +315,8 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     const std::size_t needed = events.size() + live + 1;
     if (events.capacity() < needed) events.reserve(2 * needed);
   }
-  [[nodiscard]] Box<D> area_of(const Vertex<D>& center, const Observation<D>& o) const noexcept {
-    const Box<D> reach = o.reach.box();
+  [[nodiscard]] Box<D> area_of(const Vertex<D>& center, const Reach<D>& within) const noexcept {
+    const Box<D> reach = within.box();
     const double slack = side_ * 0x1p-46;  // sums are rounded
     Box<D> area;
     for (int i = 0; i < D; ++i) {

@@ -65,21 +65,26 @@ class LinkRecord {
     return lo < triangles() && packed(lo) == wanted;
   }
 
-  /// Writes a record. `codes`: ascending; `triangles`: in any order, from any corner on; they are
-  /// put in order. Requires: codes.size() <= 2^21.
-  static void write(std::span<const Code> codes, std::vector<Triangle>& triangles,
+  /// Writes a record. `codes`: ascending; `triangles`: in any order, from any corner on. Requires:
+  /// codes.size() <= 2^21.
+  static void write(std::span<const Code> codes, const std::vector<Triangle>& triangles,
                     std::vector<Code>& record) {
     SAC_EXPECTS(codes.size() <= std::size_t{1} << 21);
     const auto size = static_cast<std::uint32_t>(codes.size());
     record.clear();
     record.push_back(size);
     record.insert(record.end(), codes.begin(), codes.end());
-    for (Triangle& t : triangles)
-      std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    std::sort(triangles.begin(), triangles.end());
-    for (const Triangle& t : triangles) {
-      const std::uint64_t x = pack(t, size);
-      if (words_of(size) == 2) record.push_back(static_cast<Code>(x >> 32));
+    // Packed ones are in the order of triangles.
+    if (words_of(size) == 1) {
+      for (const Triangle& t : triangles) record.push_back(static_cast<Code>(pack(t, size)));
+      std::sort(record.begin() + 1 + size, record.end());
+      return;
+    }
+    std::vector<std::uint64_t> packed;
+    for (const Triangle& t : triangles) packed.push_back(pack(t, size));
+    std::sort(packed.begin(), packed.end());
+    for (const std::uint64_t x : packed) {
+      record.push_back(static_cast<Code>(x >> 32));
       record.push_back(static_cast<Code>(x));
     }
   }
@@ -89,10 +94,13 @@ class LinkRecord {
   static constexpr std::size_t words_of(std::uint32_t size) noexcept {
     return size <= 1024 ? 1 : 2;
   }
-  static std::uint64_t pack(Triangle t, std::uint32_t size) noexcept {
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  static std::uint64_t pack(const Triangle& t, std::uint32_t size) noexcept {
     const int bits = bits_of(size);
-    return std::uint64_t{t[0]} << 2 * bits | std::uint64_t{t[1]} << bits | t[2];
+    const auto from = [&](std::size_t k) {
+      return std::uint64_t{t[k]} << 2 * bits | std::uint64_t{t[(k + 1) % 3]} << bits |
+             t[(k + 2) % 3];
+    };
+    return std::min({from(0), from(1), from(2)});
   }
   [[nodiscard]] std::uint64_t packed(std::size_t t) const noexcept {
     if (words_of(size_) == 1) return triangles_[t];

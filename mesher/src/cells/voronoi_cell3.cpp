@@ -15,6 +15,9 @@ namespace mesher::detail {
 
 namespace {
 
+// Of so many neighbours there is a table of all pairs.
+constexpr int kMostInTable = 128;
+
 // Three unit directions at right angles, right-handed: turned by 0.7, 0.5 and 0.3 radians about the
 // axes, so that no grid is aligned with them. The virtual neighbours are these and their opposites.
 constexpr std::array<Point<3>, 3> kAxes{{
@@ -127,9 +130,27 @@ void VoronoiCell3::load(const VertexPool<3>& pool, double radius, const LinkReco
   join_across();
 }
 
-// Tells triangles whom they share edges with. An edge waits for its other triangle at the end that
-// has fewer: all that are looked at are O(n), the link being a planar graph.
+// Tells triangles whom they share edges with: each directed edge is of one of them, and the
+// opposite one of the triangle across.
 void VoronoiCell3::join_across() {
+  if (neighbours_ > kMostInTable) return join_many_across();
+  const int shift = std::bit_width(static_cast<unsigned>(neighbours_));
+  const std::size_t places = std::size_t{1} << 2 * shift;
+  if (edges_.size() < places) edges_.resize(places);
+  int* const edge = edges_.data();
+  for (int t = 0; t < corners_; ++t) {
+    const auto& [a, b, c] = face_[index(t)].end;
+    edge[a << shift | b] = edge[b << shift | c] = edge[c << shift | a] = t;
+  }
+  for (int t = 0; t < corners_; ++t) {
+    const auto& [a, b, c] = face_[index(t)].end;
+    face_[index(t)].across = {edge[c << shift | b], edge[a << shift | c], edge[b << shift | a]};
+  }
+}
+
+// An edge waits for its other triangle at the end that has fewer: all that are looked at are O(n),
+// the link being a planar graph.
+void VoronoiCell3::join_many_across() {
   if (unpaired_.size() < index(neighbours_)) unpaired_.resize(index(neighbours_));
   for (int i = 0; i < neighbours_; ++i) unpaired_[index(i)].clear();
   for (int t = 0; t < corners_; ++t) {
@@ -389,23 +410,23 @@ Box<3> VoronoiCell3::extent_inside(const Point<3>& outward) const noexcept {
 }
 
 void VoronoiCell3::write(std::vector<Code>& record) const {
-  std::vector<std::pair<Code, std::uint32_t>> by_code;
+  by_code_.clear();
   for (int i = 0; i < neighbours_; ++i) {
-    if (used(i)) by_code.emplace_back(code(i), static_cast<std::uint32_t>(i));
+    if (used(i)) by_code_.emplace_back(code(i), static_cast<std::uint32_t>(i));
   }
-  std::sort(by_code.begin(), by_code.end());
-  std::vector<Code> codes;
-  std::vector<std::uint32_t> position(index(neighbours_));
-  for (const auto& [code, i] : by_code) {
-    position[i] = static_cast<std::uint32_t>(codes.size());
-    codes.push_back(code);
+  std::sort(by_code_.begin(), by_code_.end());
+  codes_.clear();
+  position_.resize(std::max(position_.size(), index(neighbours_)));
+  for (const auto& [code, i] : by_code_) {
+    position_[i] = static_cast<std::uint32_t>(codes_.size());
+    codes_.push_back(code);
   }
-  std::vector<LinkRecord::Triangle> triangles;
+  triangles_.clear();
   for (int t = 0; t < corners_; ++t) {
     const auto& [a, b, c] = ends(t);
-    triangles.push_back({position[index(a)], position[index(b)], position[index(c)]});
+    triangles_.push_back({position_[index(a)], position_[index(b)], position_[index(c)]});
   }
-  LinkRecord::write(codes, triangles, record);
+  LinkRecord::write(codes_, triangles_, record);
 }
 
 // Of all corners, that of (a, b, c) reaches farthest in the direction of w if w lies in the cone of

@@ -163,6 +163,7 @@ class VoronoiCell3 : public CornerReach<int> {
   void set_face(int t, const Face& face, bool open);
   void load(const VertexPool<3>& pool, double radius, const LinkRecord& record, bool open);
   void join_across();
+  void join_many_across();
   template <class Left>
   bool restore_by_removal(const VertexPool<3>& pool, const Vertex<3>& v, double radius,
                           const LinkRecord& record, Left& left, bool repair);
@@ -208,11 +209,18 @@ class VoronoiCell3 : public CornerReach<int> {
     int beyond;  // the triangle beyond the edge to the next one
   };
   std::vector<Side> hole_;
-  // Of a record that is being loaded: the edges whose other triangle has not come, by neighbour.
+  // Of a record that is being loaded: the triangle of each directed edge, in a square table; or, of
+  // many, the edges whose other triangle has not come, by neighbour.
+  std::vector<int> edges_;
   struct Unpaired {
     int other, face, opposite;
   };
   std::vector<std::vector<Unpaired>> unpaired_;
+  // Of a record that is being written.
+  mutable std::vector<std::pair<Code, std::uint32_t>> by_code_;
+  mutable std::vector<std::uint32_t> position_;
+  mutable std::vector<Code> codes_;
+  mutable std::vector<LinkRecord::Triangle> triangles_;
 
   int neighbours_ = 0;
   std::vector<Point<3>> u_, place_;

@@ -60,6 +60,9 @@ class DelaunayKernel {
   static constexpr bool kHasBalls = Layout::kHasBalls;
 
   DelaunayKernel();
+  /// The same vertices and simplices in another layout. Requires: this one has no balls.
+  template <class Other>
+  explicit DelaunayKernel(const DelaunayKernel<D, Other>& other);
 
   void reserve(std::size_t points);
   /// A new place, numbered 1, 2, ...; it is no vertex yet.
@@ -101,8 +104,8 @@ class DelaunayKernel {
   void undo_dig() noexcept;
   /// Makes v a vertex. Requires: dug.
   void fill(std::uint32_t v) noexcept;
-  /// The simplices that the last insertion made. Requires (and for all that follows on them): the
-  /// layout has balls.
+  /// The simplices that the last removal made, or insertion, if the layout has balls. Requires (for
+  /// all that follows on them): it has.
   [[nodiscard]] const std::vector<std::uint32_t>& made() const noexcept { return made_; }
   /// Of made()[k]; not a number for ghosts.
   [[nodiscard]] Shape shape_made(std::size_t k) const noexcept { return balls_.shape(k); }
@@ -133,6 +136,11 @@ class DelaunayKernel {
     return c[0] != kInfinite ? c[0] : c[1];
   }
   [[nodiscard]] std::size_t places() const noexcept { return vertices_.size() - 1; }
+  /// Of what is kept between calls.
+  [[nodiscard]] std::size_t bytes() const noexcept {
+    return vertices_.capacity() * sizeof(Vertex) + reach_.capacity() * sizeof(double) +
+           store_.bytes() + mark_.capacity();
+  }
   [[nodiscard]] bool is_ghost(std::uint32_t s) const noexcept;
   /// A simplex with corner v. Requires: has(v).
   [[nodiscard]] std::uint32_t simplex_at(std::uint32_t v) const noexcept {
@@ -155,6 +163,9 @@ class DelaunayKernel {
   void check_invariants() const;
 
  private:
+  template <int, class>
+  friend class DelaunayKernel;
+
   // All that an insertion asks of a vertex; in space they are 32 bytes, in one line of the cache.
   struct alignas(D == 3 ? 32 : 8) Vertex {
     Point<D> place;
@@ -197,6 +208,7 @@ class DelaunayKernel {
   [[nodiscard]] bool ghost_conflicts(std::uint32_t s, std::size_t i, const Point<D>& p) const;
   void find_doomed(std::uint32_t v, std::uint32_t start);
   void fetch_around(std::uint32_t s) const;
+  void make_room(std::size_t simplices);
   void make_room_for_fill();
   void number_link() noexcept;
   void forget_link() noexcept;
@@ -240,6 +252,16 @@ class DelaunayKernel {
   std::vector<Point<D>> relative_;                              // to the new vertex, likewise
   std::unique_ptr<DelaunayKernel> star_;                        // for removal
 };
+
+template <int D, class Layout>
+template <class Other>
+DelaunayKernel<D, Layout>::DelaunayKernel(const DelaunayKernel<D, Other>& other)
+    : store_(other.store_), last_(other.last_), mark_(other.mark_.size(), 0) {
+  static_assert(!kHasBalls);
+  vertices_.reserve(other.vertices_.size());
+  for (const auto& v : other.vertices_) vertices_.push_back({v.place, v.simplex});
+  for (std::uint32_t v = 1; v < vertices_.size(); ++v) note_unit(v);
+}
 
 /// Several go through the batch at a time.
 template <int D, class Layout>

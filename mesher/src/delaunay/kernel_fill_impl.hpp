@@ -17,12 +17,20 @@ constexpr std::uint64_t kNoRidge = ~std::uint64_t{0};
 // Of a hash table for the 3n/2 edges of n triangles around the new vertex.
 inline std::size_t places_for_edges(std::size_t triangles) { return std::bit_ceil(3 * triangles); }
 
+/// For so many more. Strong guarantee.
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::make_room(std::size_t simplices) {
+  const std::size_t places = store_.places() + simplices;
+  if (mark_.capacity() < places) mark_.reserve(std::max(places, 2 * mark_.capacity()));
+  store_.make_room(simplices);
+  mark_.resize(store_.places(), 0);
+}
+
 /// All that fill() needs.
 template <int D, class Layout>
 void DelaunayKernel<D, Layout>::make_room_for_fill() {
   const std::size_t n = borders_.size(), k = cavity_.size();
-  if (n > k) store_.make_room(n - k);
-  mark_.resize(store_.places(), 0);
+  make_room(n > k ? n - k : 0);
   if (cavity_.capacity() < n) cavity_.reserve(2 * n);
   if constexpr (kHasBalls) {
     made_.reserve(cavity_.capacity());

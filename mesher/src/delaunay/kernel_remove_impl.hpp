@@ -205,8 +205,7 @@ void DelaunayKernel<D, Layout>::refill(std::uint32_t v, const std::vector<std::u
     const std::size_t i = corner_of(s, v);
     sides.push_back({OrientedFacet<D>(store_.corners(s), i).corners, store_.across(s)[i]});
   }
-  if (filling.size() > star.size()) store_.make_room(filling.size() - star.size());
-  mark_.resize(store_.places(), 0);
+  make_room(filling.size() > star.size() ? filling.size() - star.size() : 0);
   sides.reserve(sides.size() + (D + 1) * filling.size());
   made_.clear();
   made_.reserve(filling.size());

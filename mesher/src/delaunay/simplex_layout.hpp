@@ -28,6 +28,9 @@ class ArrayLayout {
   static constexpr bool kHasBalls = false;
 
   [[nodiscard]] std::size_t size() const noexcept { return corners_.size(); }
+  [[nodiscard]] std::size_t bytes() const noexcept {
+    return (corners_.capacity() + across_.capacity()) * sizeof(Ids);
+  }
   [[nodiscard]] const Ids& corners(std::uint32_t s) const noexcept { return corners_[s]; }
   [[nodiscard]] const Ids& across(std::uint32_t s) const noexcept { return across_[s]; }
   [[nodiscard]] Ids& corners(std::uint32_t s) noexcept { return corners_[s]; }
@@ -67,6 +70,7 @@ class BallLayout {
   static constexpr bool kHasBalls = true;
 
   [[nodiscard]] std::size_t size() const noexcept { return lines_.size(); }
+  [[nodiscard]] std::size_t bytes() const noexcept { return lines_.capacity() * sizeof(Line); }
   [[nodiscard]] const Ids& corners(std::uint32_t s) const noexcept { return lines_[s].corners; }
   [[nodiscard]] const Ids& across(std::uint32_t s) const noexcept { return lines_[s].across; }
   [[nodiscard]] Ids& corners(std::uint32_t s) noexcept { return lines_[s].corners; }

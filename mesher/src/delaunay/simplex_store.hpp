@@ -26,6 +26,18 @@ class SimplexStore {
   /// A neighbour's number leaves two bits for its corner.
   static constexpr std::size_t kMost = std::size_t{1} << 30;
 
+  SimplexStore() = default;
+  /// The same simplices in another layout, without their balls.
+  template <class Other>
+  explicit SimplexStore(const SimplexStore<D, Other>& other)
+      : free_(other.free_), free_count_(other.free_count_) {
+    all_.resize(other.places());
+    for (std::uint32_t s = 0; s < places(); ++s) {
+      corners(s) = other.corners(s);
+      across(s) = other.across(s);
+    }
+  }
+
   [[nodiscard]] std::size_t places() const noexcept { return all_.size(); }
   [[nodiscard]] std::size_t size() const noexcept { return all_.size() - free_count_; }
   [[nodiscard]] bool alive(std::uint32_t s) const noexcept { return corners(s)[0] != kNone; }
@@ -38,6 +50,7 @@ class SimplexStore {
   [[nodiscard]] SimplexBall<D>& ball(std::uint32_t s) noexcept { return all_.ball(s); }
 
   void reserve(std::size_t n) { all_.reserve(n); }
+  [[nodiscard]] std::size_t bytes() const noexcept { return all_.bytes(); }
   /// The next n calls of take() will find a place. Strong guarantee.
   /// Throws: Error(too_many) beyond kMost simplices.
   void make_room(std::size_t n) {
@@ -77,6 +90,9 @@ class SimplexStore {
   [[nodiscard]] std::vector<Ids> release_across() noexcept { return all_.release_across(); }
 
  private:
+  template <int, class>
+  friend class SimplexStore;
+
   void move(std::uint32_t from, std::uint32_t to) noexcept;
   void grow(std::size_t more) {
     const std::size_t size = all_.size();

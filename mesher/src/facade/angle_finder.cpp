@@ -89,9 +89,20 @@ class WorldInput {
 
 }  // namespace
 
-AngleNews AngleFinder::news(const std::vector<Triangle>& come) const {
+AngleNews AngleFinder::news(std::vector<Triangle> come) const {
   if (world_.segments.store().live() == 0) return {};
+  const auto is_before = [&](VertexHandle a, VertexHandle b) { return place(a) < place(b); };
+  for (Triangle& t : come) {  // what is said of it is not to depend on handles
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end(), is_before), t.end());
+  }
   return {forced(come), shrunk(come)};
+}
+
+template <class Visit>
+void AngleFinder::for_each_neighbour(const Vertex<2>& v, Visit&& visit) const {
+  const auto& pool = world_.vertices.pool();
+  world_.vertices.for_each_simplex_at(
+      v, [&](const Triangle& t) { visit(pool[t[1]]), visit(pool[t[2]]); });
 }
 
 bool AngleFinder::is_poor(const Triangle& t) const {
@@ -130,23 +141,19 @@ std::vector<SmallAngle> AngleFinder::forced(const std::vector<Triangle>& come) c
 
 // To the nearest neighbour that counts.
 double AngleFinder::nearest(const Vertex<2>& v) const {
-  const auto& pool = world_.vertices.pool();
   double nearest2 = kInfinity;
-  for (const std::uint32_t u : world_.vertices.ring(v)) {
-    if (u >= VoronoiCell::kVirtual) continue;
-    const Vertex<2>& w = pool[u];
+  for_each_neighbour(v, [&](const Vertex<2>& w) {
     const double far2 = distance2(v.p, w.p, w.p);
-    if (far2 >= nearest2) continue;
+    if (far2 >= nearest2) return;
     const auto& store = world_.segments.store();
     if (wedges_across(world_.vertices, store, v, w, true).empty()) nearest2 = far2;
-  }
+  });
   return std::sqrt(nearest2);
 }
 
 // Whether two features without a common point are within r of v, most of the time: v or its segment
 // and an input point, or two of these, among v's neighbours or further away.
 bool AngleFinder::is_near_two(const Vertex<2>& v, double r) const {
-  const auto& pool = world_.vertices.pool();
   const SegmentHandle on = world_.vertices.role(v).on;
   VertexHandle first = v.input ? v.self : 0;
   const auto is_second = [&](const Vertex<2>& w) {
@@ -154,10 +161,9 @@ bool AngleFinder::is_near_two(const Vertex<2>& v, double r) const {
     if (on != 0 && !world_.segments.pool()[on].has_end(w.self)) return true;
     return std::exchange(first, w.self) != 0;
   };
-  for (const std::uint32_t u : world_.vertices.ring(v)) {
-    if (u < VoronoiCell::kVirtual && is_second(pool[u])) return true;
-  }
-  return world_.features.visit_points_in(around(v.p, r), is_second);
+  bool found = false;
+  for_each_neighbour(v, [&](const Vertex<2>& w) { found = found || is_second(w); });
+  return found || world_.features.visit_points_in(around(v.p, r), is_second);
 }
 
 std::vector<ShrunkVertex> AngleFinder::shrunk(const std::vector<Triangle>& come) const {

@@ -7,6 +7,7 @@
 #include "plane/lost_edge.hpp"
 #include "plane/require_planar.hpp"
 #include "program/world_impl.hpp"
+#include "sets/make_set.hpp"
 
 namespace mesher::detail {
 
@@ -65,9 +66,11 @@ void PlaneState::report_features(const Log&, Change<2>& change) {
 
 bool PlaneState::is_edge(const Leaf& leaf) const {
   const auto& tree = vertices().tree();
-  const auto ring = vertices().ring(*tree.find(leaf.lo));
   const VertexHandle other = tree.find(leaf.hi)->self;
-  return std::find(ring.begin(), ring.end(), other) != ring.end();
+  bool is = false;
+  vertices().for_each_simplex_at(
+      *tree.find(leaf.lo), [&](const Simplex& t) { is = is || t[1] == other || t[2] == other; });
+  return is;
 }
 
 void PlaneState::require_features() const {
@@ -85,8 +88,11 @@ void PlaneState::require_features(const Log& log) const {
   world_->leaves.for_each_changed([&](const Leaf& leaf) {
     if (world_->leaves.is_leaf(leaf)) look(leaf);
   });
-  for (const auto& star : log.stars_come) {
-    const Vertex<2>& v = pool()[star.center];
+  std::vector<VertexHandle> corners;
+  for (const Simplex& t : log.simplices_come) corners.insert(corners.end(), t.begin(), t.end());
+  make_set(corners);
+  for (const VertexHandle h : corners) {
+    const Vertex<2>& v = pool()[h];
     if (v.input || v.on_segment) world_->leaves.for_each_ending_at(v.p, look);
   }
   lost.require_none(vertices(), world_->segments.pool(), this);

@@ -153,13 +153,14 @@ Change<D> PointState<D>::first_run(Edits<D> edits, const RunControl& control,
   const auto meter = [&](const sac::Progress& p) { return phases(p.executed); };
   const Watch watch(*engine_, control, meter);
   const CallCounts calls = call_counts(engine_->template run<refine<D>>());
+  if (!phases.end(calls.executed)) fail_stopped();
   commit();
   require_room(pool().size() - vertices().trials());
   require_features();
   ran_ = true;
   const std::vector<Simplex> come = simplices();
   const OnFeatures parts = on_features(come);
-  const Mesh<D> mesh = canonical(pool(), live_vertices(), come, parts);
+  const Mesh<D> mesh = canonical(pool(), vertices().live_vertices(), come, parts);
   remember(parts);
   stats_ = timed_stats(*world_, mesh);
   Change<D> change = whole_change(mesh);
@@ -260,11 +261,12 @@ Change<D> PointState<D>::propagate(const Edits<D>& edits, const RunControl& cont
   const std::function<void()> report = [&] {  // what needs memory, while all can be undone
     make_room();
     prepare_names();
-    Log log = vertices().log();
+    const Log log = vertices().log();
     require_features(log);
     report_vertices(log, change);
     report_features(log, change);
-    find_angles(report_stars(std::move(log), change), change);
+    report_simplices(log, change);
+    find_angles(log.simplices_come, change);
     require_room(stats_.vertices + change.vertices_added.size() - change.vertices_removed.size());
     if (accept) accept(change);
   };

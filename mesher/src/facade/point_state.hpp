@@ -94,6 +94,8 @@ class PointState : public AnyState<D> {
   /// Points that have come, ascending by id.
   [[nodiscard]] std::vector<VertexHandle> arrivals() const;
   [[nodiscard]] std::vector<Simplex> simplices() const;
+  /// Their places, in the order that a mesh has them in.
+  [[nodiscard]] std::array<Point<D>, D + 1> corners(const Simplex& s) const;
 
   auto& vertices() noexcept { return world_->vertices; }
   const auto& vertices() const noexcept { return world_->vertices; }
@@ -122,11 +124,8 @@ class PointState : public AnyState<D> {
   void rename(const PointEdits<D>& edits) noexcept;
   void forget() noexcept;
   void require_room(std::size_t vertices) const;
-  [[nodiscard]] std::vector<VertexHandle> live_vertices() const;
-  [[nodiscard]] std::array<Point<D>, D + 1> corners(const Simplex& s) const;
   void report_vertices(const Log& log, Change<D>& change) const;
-  void own_simplices(const typename ChangeLog<D>::Star& star, std::vector<Simplex>& all) const;
-  std::vector<Simplex> report_stars(Log log, Change<D>& change) const;
+  void report_simplices(const Log& log, Change<D>& change) const;
 
   bool ran_ = false;
   MeshStats stats_;

@@ -88,7 +88,7 @@ void SpaceState::find_angles(const std::vector<Simplex>& come, Change<3>& change
   };
   GuardCounts counts;
   for (const Simplex& s : come) {
-    const std::array places{pool()[s[0]].p, pool()[s[1]].p, pool()[s[2]].p, pool()[s[3]].p};
+    const std::array<Point<3>, 4> places = corners(s);  // ratios are rounded in this order
     const RadiusEdge ratio = radius_edge(places[0], places[1], places[2], places[3]);
     if (!is_above(ratio, rho_)) continue;
     const auto edges = GuardCounts::shortest_edges(places);

@@ -50,9 +50,8 @@ bool is_on_feature(VertexKind kind) {
 // --- Where to look ---------------------------------------------------------------------------
 
 void SpaceState::list_neighbours(VertexHandle v, std::vector<VertexHandle>& all) const {
-  for_each_simplex_at(
-      pool()[v], vertices().ring(pool()[v]), [](VertexHandle) { return true; },
-      [&](const Simplex& s) { all.insert(all.end(), s.begin() + 1, s.end()); });
+  vertices().for_each_simplex_at(
+      pool()[v], [&](const Simplex& s) { all.insert(all.end(), s.begin() + 1, s.end()); });
 }
 
 void SpaceState::list_on(const Edge& e, std::vector<VertexHandle>& all) const {
@@ -83,6 +82,9 @@ void SpaceState::list_inside(const Polygon& f, std::vector<VertexHandle>& all) c
 // The corners of all parts that may have come or gone, ascending.
 std::vector<VertexHandle> SpaceState::disturbed(const Log& log) const {
   std::vector<VertexHandle> all = log.touched;
+  for (const auto* simplices : {&log.simplices_gone, &log.simplices_come}) {
+    for (const Simplex& s : *simplices) all.insert(all.end(), s.begin(), s.end());
+  }
   for (const VertexHandle h : log.touched) {
     const Vertex<3>& v = pool()[h];
     const bool stayed = v.alive && v.committed;
@@ -118,8 +120,9 @@ OnFeatures SpaceState::parts_at(const std::vector<VertexHandle>& at) const {
       return w > h || !is_on_feature(pool()[w].kind()) ||
              !std::binary_search(at.begin(), at.end(), w);
     };
-    for_each_simplex_at(v, vertices().ring(v), is_first,
-                        [&](const Simplex& s) { simplices.push_back(s); });
+    vertices().for_each_simplex_at(v, [&](const Simplex& s) {
+      if (std::all_of(s.begin() + 1, s.end(), is_first)) simplices.push_back(s);
+    });
   }
   return on_features(simplices);
 }

@@ -140,8 +140,7 @@ void LiveTriangulation<D>::note_doomed() {
 template <int D>
 bool LiveTriangulation<D>::insert(const Vertex<D>& v) {
   SAC_EXPECTS(v.self > kernel_.places() || !kernel_.has(v.self));
-  const std::uint32_t from = kernel_.simplex_at(center_ != 0 ? center_ : kernel_.last_changed());
-  const std::uint32_t s = kernel_.walk(v.p, from);
+  const std::uint32_t s = kernel_.walk(v.p, recent_simplex());
   for (const std::uint32_t w : kernel_.simplices().corners(s)) {
     if (w != kInfinite && kernel_.place(w) == v.p) return false;
   }
@@ -261,11 +260,11 @@ void LiveTriangulation<D>::read(CellOf<D>& cell, const Vertex<D>& v, double radi
   cell.begin_among(v, radius, ring_);
 }
 
+// Those that a vertex at p would be joined to are ring_ afterwards.
 template <int D>
-void LiveTriangulation<D>::read_as_if(CellOf<D>& cell, const Vertex<D>& v, VertexHandle near,
-                                      double radius) {
-  const std::uint32_t s = kernel_.walk(v.p, kernel_.simplex_at(near));
-  const std::uint32_t u = kernel_.add_place(v.p);
+void LiveTriangulation<D>::find_link(const Point<D>& p, std::uint32_t from) {
+  const std::uint32_t s = kernel_.walk(p, from);
+  const std::uint32_t u = kernel_.add_place(p);
   struct Undo {
     Kernel& kernel;
     bool dug = false;
@@ -275,13 +274,27 @@ void LiveTriangulation<D>::read_as_if(CellOf<D>& cell, const Vertex<D>& v, Verte
     }
   };
   ring_.clear();
-  {
-    Undo undo{kernel_};
-    kernel_.dig(u, s);
-    undo.dug = true;
-    kernel_.for_each_in_link([&](std::uint32_t w) { ring_.push_back({w, kernel_.place(w)}); });
-  }
+  Undo undo{kernel_};
+  kernel_.dig(u, s);
+  undo.dug = true;
+  kernel_.for_each_in_link([&](std::uint32_t w) { ring_.push_back({w, kernel_.place(w)}); });
+}
+
+template <int D>
+void LiveTriangulation<D>::read_as_if(CellOf<D>& cell, const Vertex<D>& v, VertexHandle near,
+                                      double radius) {
+  find_link(v.p, kernel_.simplex_at(near));
   cell.begin_among(v, radius, ring_);
+}
+
+template <int D>
+void LiveTriangulation<D>::list_near(const Vertex<D>& v, std::vector<VertexHandle>& all) {
+  all.clear();
+  if (has(v)) return for_each_neighbour(v.self, [&](VertexHandle u) { all.push_back(u); });
+  find_link(v.p, recent_simplex());
+  for (const auto& u : ring_) {
+    if (u.code != kInfinite) all.push_back(u.code);
+  }
 }
 
 template <>

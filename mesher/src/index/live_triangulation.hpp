@@ -58,6 +58,10 @@ class LiveTriangulation {
   /// Makes `cell` what the cell of v, which is no vertex, would be. Requires: no vertex is at its
   /// place, which is inside of the box; `near` is a vertex. Cost: as an insertion near it.
   void read_as_if(CellOf<D>& cell, const Vertex<D>& v, VertexHandle near, double radius);
+  /// Lists v's neighbours, or, if v is no vertex, those that it would have. Requires: no other
+  /// vertex is at its place, which is inside of the box. Cost: as an insertion near the vertex that
+  /// was asked about last.
+  void list_near(const Vertex<D>& v, std::vector<VertexHandle>& all);
   struct Nearest {
     VertexHandle handle;
     double distance2;
@@ -65,6 +69,9 @@ class LiveTriangulation {
   /// The nearest other vertex, by squared distances as doubles have them; of equally near ones the
   /// least in coordinates. Cost: O(1); reads a few stars where lengths differ by more than 2^19.
   [[nodiscard]] Nearest nearest(const Vertex<D>& v);
+
+  using Kernel = DelaunayKernel<D, BallLayout<D>>;
+  [[nodiscard]] const Kernel& kernel() const noexcept { return kernel_; }
 
   /// Calls visit(corners) for each simplex, positively oriented, by handles.
   template <class Visit>
@@ -76,8 +83,6 @@ class LiveTriangulation {
   }
 
  private:
-  using Kernel = DelaunayKernel<D, BallLayout<D>>;
-
   explicit LiveTriangulation(double good2) : good2_(good2) {}
   // What is kept of a vertex, so that its star need not be read.
   struct Around {
@@ -101,6 +106,10 @@ class LiveTriangulation {
   void note_nearer(Nearest& nearest, VertexHandle u, double distance2) const;
   void find_nearest(VertexHandle u);
   void look_around(VertexHandle v);
+  [[nodiscard]] std::uint32_t recent_simplex() const noexcept {
+    return kernel_.simplex_at(center_ != 0 ? center_ : kernel_.last_changed());
+  }
+  void find_link(const Point<D>& p, std::uint32_t from);
   void read_star(CellOf<D>& cell, const Vertex<D>& v, double radius);
   template <class Visit>
   void for_each_neighbour(VertexHandle v, Visit&& visit);
@@ -137,6 +146,7 @@ requires(D > 3) class LiveTriangulation<D> {
   [[nodiscard]] bool is_settled(const Vertex<D>&, double) { return false; }
   void read(CellOf<D>&, const Vertex<D>&, double) {}
   void read_as_if(CellOf<D>&, const Vertex<D>&, VertexHandle, double) {}
+  void list_near(const Vertex<D>&, std::vector<VertexHandle>&) {}
   struct Nearest {
     VertexHandle handle;
     double distance2;

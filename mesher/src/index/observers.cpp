@@ -30,9 +30,6 @@ void Observers<D>::unlink(Observation& o) noexcept {
 template <int D>
 std::span<const std::uint32_t> Observers<D>::seen(const Observation& o) const noexcept {
   if (o.kind == kNearest) return {&static_cast<const NearestSeen&>(o).nearest, 1};
-  if (o.kind == kStar) {
-    return engine_.arena().at<Ring>(static_cast<const StarSeen&>(o).ring)->span();
-  }
   const auto& cell = static_cast<const CellSeen&>(o);
   return {cell.codes(), cell.count};
 }

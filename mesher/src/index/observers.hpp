@@ -44,7 +44,7 @@ template <>
 struct FeaturesAsked<3> {
   float features_within;  // of the cell's vertex, in units of the box's side
 };
-/// A clipped cell; as it was written down lies behind it.
+/// A cell, clipped or a star; as it was written down lies behind it.
 template <int D>
 struct CellSeen : Observation<D>, FeaturesAsked<D> {
   float radius;  // the clip, in units of the box's side
@@ -57,23 +57,16 @@ struct CellSeen : Observation<D>, FeaturesAsked<D> {
     return reinterpret_cast<const std::uint32_t*>(this + 1);
   }
 };
-/// A star.
-template <int D>
-struct StarSeen : Observation<D> {
-  sac::Handle ring;
-};
-
 template <int D>
 class Observers {
  public:
   using Observation = detail::Observation<D>;
   using NearestSeen = detail::NearestSeen<D>;
   using CellSeen = detail::CellSeen<D>;
-  using StarSeen = detail::StarSeen<D>;
 
   static constexpr std::uint8_t kNearest = 2;
   static constexpr std::uint8_t kCell = 1;
-  static constexpr std::uint8_t kStar = 3;
+  static constexpr std::uint8_t kStar = 3;   // the cell among all vertices, without a clip
   static constexpr std::uint8_t kTrial = 5;  // a cell, of what is no vertex
   static constexpr std::uint32_t kUnknown = 0xffffffffu;
 

@@ -181,8 +181,7 @@ bool VertexIndex<sac::Scope, D>::concerns(const Vertex<D>& v, const Vertex<D>& c
     return seen[0] == 0 ||
            squared_distance(v.p, center.p) <= squared_distance(pool_[seen[0]].p, center.p);
   }
-  const double radius =
-      o.kind == kStar ? whole() : unpacked(static_cast<const CellSeen&>(o).radius);
+  const double radius = unpacked(static_cast<const CellSeen&>(o).radius);
   return Cell::may_cut(pool_, center, radius, seen, v.p);
 }
 
@@ -268,13 +267,12 @@ CellLoan<D> VertexIndex<sac::Scope, D>::look(const Vertex<D>& v, double radius,
     add_candidate(*cell, u);
   }
   cut_by_candidates(*cell, seen);
-  if (repairs && came && last->kind == kStar && try_successors(*cell, *last, seen)) return cell;
   known ? finish_known(*cell, seen) : finish(*cell, seen);
   return cell;
 }
 
-// With who is likely to be near: v's neighbours at another time, or, in an update, those of the
-// vertex for which v was made. Returns false if nobody is known.
+// With who is likely to be near: v's neighbours at another time, or those in a triangulation, or,
+// in an update, those of the vertex for which v was made. Returns false if nobody is known.
 template <int D>
 template <class Seen>
 bool VertexIndex<sac::Scope, D>::begin(Cell& cell, const Vertex<D>& v, double radius, Seen& seen) {
@@ -284,6 +282,11 @@ bool VertexIndex<sac::Scope, D>::begin(Cell& cell, const Vertex<D>& v, double ra
     return true;
   }
   cell.reset(v, radius);
+  if (live_ != nullptr) {  // of a tile, in whose first run others ask: it may have later ones, too
+    live_->list_near(v, near_);
+    for (const VertexHandle u : near_) add_candidate(cell, u);
+    return true;
+  }
   const CellSeen* made_in = engine_.appending() ? nullptr : cell_of_producer(v);
   if (made_in == nullptr) return false;
   add_neighbours(cell, *made_in);
@@ -298,52 +301,6 @@ void VertexIndex<sac::Scope, D>::add_neighbours(const Cell& cell, const CellSeen
   }
 }
 
-// Where neighbours of a star have gone, and it has been cut by all that came, who takes their
-// places are vertices of the last update that were around them: tries these. Returns whether there
-// can be no others, so that no search is needed [rules B5].
-//
-// Proof. Let q be a corner in whose ball there is a vertex u, of the last update and alive. On the
-// way from v to q every place y is nearer to v than to any alive vertex outside of q's ball. So the
-// cells of the last update that the way crosses, each a neighbour of the one before, are those of
-// v, of gone vertices in q's ball, and at last of an alive one in it: who has been around a gone
-// one.
-template <int D>
-template <class Seen>
-bool VertexIndex<sac::Scope, D>::try_successors(Cell& cell, const Observation& last, Seen& seen) {
-  gone_.clear();
-  for (const std::uint32_t u : observers_.neighbours(last)) {
-    if (u < Cell::kVirtual && !seen(u)) gone_.push_back(u);
-  }
-  for (std::size_t i = 0; i < gone_.size(); ++i) {
-    const Vertex<D>& u = pool_[gone_[i]];
-    if (!cell.in_reach(squared_distance(u.p, cell.center().p))) continue;
-    if (!add_around(cell, u)) return false;
-    cut_by_candidates(cell, seen);
-  }
-  return true;
-}
-
-// Takes those who were around `gone` for candidates, and notes who of them has gone, too. Returns
-// whether it is known who they were: not of one that came in this very update, as when edits are
-// taken back.
-template <int D>
-bool VertexIndex<sac::Scope, D>::add_around(Cell& cell, const Vertex<D>& gone) {
-  constexpr std::size_t kMost = 64;
-  const Ring* ring = gone.committed && gone_.size() <= kMost ? last_ring(gone) : nullptr;
-  if (ring == nullptr) return false;
-  bool all = true;
-  for (const std::uint32_t u : Cell::neighbours(ring->span())) {
-    if (u >= Cell::kVirtual) {
-      all = false;
-    } else if (pool_[u].alive) {
-      add_candidate(cell, u);
-    } else if (std::find(gone_.begin(), gone_.end(), u) == gone_.end()) {
-      gone_.push_back(u);
-    }
-  }
-  return all;
-}
-
 // The cell in which v was found to be needed.
 template <int D>
 auto VertexIndex<sac::Scope, D>::cell_of_producer(const Vertex<D>& v) const noexcept
@@ -354,13 +311,6 @@ auto VertexIndex<sac::Scope, D>::cell_of_producer(const Vertex<D>& v) const noex
     if (edge.structure == id_ && edge.kind == kCell) cell = static_cast<const CellSeen*>(&edge);
   });
   return cell;
-}
-
-// v's star at the end of the last update.
-template <int D>
-const Ring* VertexIndex<sac::Scope, D>::last_ring(const Vertex<D>& v) const noexcept {
-  const Ring* ring = find_ring(v);
-  return ring != nullptr && !ring->fresh ? ring : log_.ring_gone(v);
 }
 
 template <int D>
@@ -471,20 +421,13 @@ double VertexIndex<sac::Scope, D>::nearest2(sac::Scope& s, VertexRef<D> v) {
 
 template <int D>
 CellLoan<D> VertexIndex<sac::Scope, D>::star(sac::Scope& s, VertexRef<D> v) {
-  if (first_stars_ && first_stars_->write(v->self, codes_)) {
-    CellLoan<D> cell = borrow_cell();
-    cell->restore(
-        pool_, *v, whole(), codes_, [](std::uint32_t) { return true; }, true);
-    record_star(s, *v, concern(*cell));
-    return cell;
-  }
   const sac::Ref<sac::Call> caller = engine_.handle_of(s.self());
   const Observation* last = observers_.find_at(
       *v, [&](const Observation& o) { return o.kind == kStar && o.call == caller; });
   CellLoan<D> cell = look(*v, whole(), last, [&](VertexHandle u) { return pool_[u].alive; });
   s.weigh(take_visited());
   cell->write(codes_);
-  record_star(s, *v, concern(*cell));
+  record_cell(s, *v, *cell, packed(whole()), kStar);
   return cell;
 }
 
@@ -539,47 +482,11 @@ void VertexIndex<sac::Scope, D>::record_nearest(sac::Scope& s, Vertex<D>& v, Rea
 }
 
 template <int D>
-void VertexIndex<sac::Scope, D>::record_star(sac::Scope& s, Vertex<D>& v, Reach<D> reach) {
-  const auto same = [&](const StarSeen& o) {
-    const auto seen = observers_.seen(o);
-    return o.center == v.self && o.reach == reach &&
-           std::equal(codes_.begin(), codes_.end(), seen.begin(), seen.end());
-  };
-  if (auto* o = s.recall<StarSeen>(id_, kStar, same)) {
-    o->arrivals = 0;
-    return;
-  }
-  const sac::Handle ring = new_ring(v.self);
-  const Observation* star = nullptr;
-  try {
-    auto& o = s.observe<StarSeen>(id_, kStar);
-    o.ring = ring;
-    fill(s, o, v, reach);
-    star = &o;
-  } catch (...) {
-    engine_.arena().release(ring, Ring::bytes(codes_.size()));
-    throw;
-  }
-  if (!engine_.appending()) log_.star_came(v, ring);
-  tell(v, *star, whole());
-}
-
-template <int D>
-sac::Handle VertexIndex<sac::Scope, D>::new_ring(VertexHandle center) {
-  const sac::Handle handle = engine_.arena().allocate(Ring::bytes(codes_.size()));
-  Ring& ring = *engine_.arena().at<Ring>(handle);
-  ring = {center, 0, static_cast<std::uint32_t>(codes_.size()), false};
-  std::copy(codes_.begin(), codes_.end(), ring.codes());
-  return handle;
-}
-
-template <int D>
 void VertexIndex<sac::Scope, D>::forget(Observation& o) noexcept {
   observers_.unlink(o);
   if (listener_ != nullptr) [[unlikely]]
     listener_->forgot(pool_[o.center], o);
   if (o.kind == kTrial && !pool_[o.center].alive) touch(pool_[o.center]);
-  if (o.kind == kStar) log_.star_went(pool_[o.center], static_cast<StarSeen&>(o).ring);
 }
 
 // --- Taking back -----------------------------------------------------------------------------
@@ -637,34 +544,77 @@ void VertexIndex<sac::Scope, D>::print(const sac::Call&, const sac::Edge& edge,
 // --- Between updates -------------------------------------------------------------------------
 
 template <int D>
-Ring* VertexIndex<sac::Scope, D>::find_ring(const Vertex<D>& v) const noexcept {
-  const auto* star = static_cast<const StarSeen*>(
-      observers_.find_at(v, [](const Observation& o) { return o.kind == kStar; }));
-  return star == nullptr ? nullptr : engine_.arena().at<Ring>(star->ring);
-}
-
-template <int D>
 std::span<const std::uint32_t> VertexIndex<sac::Scope, D>::ring(const Vertex<D>& v) const {
-  const Ring* ring = find_ring(v);
-  return ring == nullptr ? std::span<const std::uint32_t>() : ring->span();
+  const Observation* star =
+      observers_.find_at(v, [](const Observation& o) { return o.kind == kStar; });
+  return star == nullptr ? std::span<const std::uint32_t>() : observers_.seen(*star);
 }
 
 template <int D>
-auto VertexIndex<sac::Scope, D>::log() const -> Log {
-  Log log{log_.touched(), log_.stars_gone(), {}};
-  for (const VertexHandle h : log.touched) {
-    const Ring* now = pool_[h].star_changed ? find_ring(pool_[h]) : nullptr;
-    if (now != nullptr && now->fresh) log.stars_come.push_back({h, now->span()});
+void VertexIndex<sac::Scope, D>::keep_triangulation() requires(D <= 3) {
+  kept_ = live_ != nullptr ? std::make_unique<KeptTriangulation<D>>(*live_)
+                           : std::make_unique<KeptTriangulation<D>>(pool_, live_vertices());
+  keeps_ = true;
+  live_.reset();
+}
+
+template <int D>
+void VertexIndex<sac::Scope, D>::follow() {
+  if constexpr (D <= 3) {
+    if (!keeps_) return;
+    if (kept_ == nullptr) {
+      kept_ = std::make_unique<KeptTriangulation<D>>(
+          pool_, vertices_that([](const Vertex<D>& v) { return v.committed; }));
+    }
+    std::vector<VertexHandle> come, gone;
+    for (const VertexHandle h : log_.touched()) {
+      const Vertex<D>& v = pool_[h];
+      if (v.alive != kept_->has(h)) (v.alive ? come : gone).push_back(h);
+    }
+    VertexHandle near = 0;
+    if (!come.empty()) {
+      const auto is_there = [&](VertexHandle u) { return kept_->has(u); };
+      near = nearest_around(pool_[come.front()], is_there).handle;
+      static_cast<void>(take_visited());
+    }
+    kept_->change(pool_, std::move(come), std::move(gone), near);
+  }
+}
+
+// Its vertices are those of a failed update, perhaps.
+template <int D>
+void VertexIndex<sac::Scope, D>::put_triangulation_back() noexcept {
+  if constexpr (D <= 3) {
+    if (kept_ == nullptr) return;
+    const auto is_other = [&](const Vertex<D>& v) { return v.alive != kept_->has(v.self); };
+    try {
+      if (log_.any_touched(is_other)) follow();
+      kept_->commit();
+    } catch (...) {
+      kept_.reset();
+    }
+  }
+}
+
+template <int D>
+auto VertexIndex<sac::Scope, D>::log() -> Log {
+  Log log{log_.touched(), {}, {}};
+  if constexpr (D <= 3) {
+    follow();
+    if (!keeps_) return log;
+    auto news = kept_->news();
+    log.simplices_gone = std::move(news.gone);
+    log.simplices_come = std::move(news.come);
   }
   return log;
 }
 
 template <int D>
 void VertexIndex<sac::Scope, D>::commit() noexcept {
+  put_triangulation_back();
   log_.clear([&](Vertex<D>& v) {
     v.committed = v.alive;
     v.committed_kind = v.kind();
-    if (Ring* ring = find_ring(v)) ring->fresh = false;
     if (v.alive || v.input) return;
     const bool tried = v.queries != 0;
     set_trial(v, tried);
@@ -686,9 +636,13 @@ template <int D>
 void VertexIndex<sac::Scope, D>::check_invariants() const {
   pool_.check_invariants();
   tree_.check_invariants();
-  SAC_INVARIANT(log_.stars_gone().empty());
   for (const VertexHandle h : log_.touched()) SAC_INVARIANT(!pool_[h].alive);
   pool_.for_each([&](const Vertex<D>& v) { check_vertex(v); });
+  if constexpr (D <= 3) {
+    if (kept_ == nullptr) return;
+    kept_->check_invariants();
+    pool_.for_each([&](const Vertex<D>& v) { SAC_INVARIANT(kept_->has(v.self) == v.alive); });
+  }
 }
 
 // What is not alive is listed to be freed.
@@ -705,11 +659,11 @@ void VertexIndex<sac::Scope, D>::check_vertex(const Vertex<D>& v) const {
   observers_.check_invariants(v);
   int stars = 0;
   observers_.find_at(v, [&](const Observation& o) {
-    stars += o.kind == kStar && !find_ring(v)->fresh;
+    stars += o.kind == kStar;
     check_observation(v, o);
     return false;
   });
-  SAC_INVARIANT(stars == (v.alive ? 1 : 0) || (listener_ != nullptr && stars == 0));  // another's
+  SAC_INVARIANT(stars == (v.alive ? 1 : 0) || (D <= 3 && stars == 0));
 }
 
 // It is what a search from nothing finds.
@@ -723,8 +677,7 @@ void VertexIndex<sac::Scope, D>::check_observation(const Vertex<D>& v, const Obs
     SAC_INVARIANT(nearest_around(v, seen).handle == observers_.seen(o)[0]);
     return;
   }
-  const double radius =
-      o.kind == kStar ? whole() : unpacked(static_cast<const CellSeen&>(o).radius);
+  const double radius = unpacked(static_cast<const CellSeen&>(o).radius);
   const CellLoan<D> cell = cut_around(v, radius, seen);
   cell->check_invariants();
   std::vector<std::uint32_t> record;

@@ -11,6 +11,8 @@
 //   trial(s, p, v, R)      what the cell at p would be, were a vertex born  (observation)
 //                          there; v is a vertex near it
 //   star(s, v)             v's Delaunay star among all vertices             (observation)
+//   follow()               makes the triangulation, if one is kept in the place of stars, that of
+//                          all vertices
 //
 // A vertex that comes or goes invalidates exactly the later observations that it concerns: one that
 // comes, those with a gap ball around it; one that goes, those whose cell it bounds.
@@ -38,7 +40,7 @@
 #include <vector>
 
 #include "index/change_log.hpp"
-#include "index/first_stars.hpp"
+#include "index/kept_triangulation.hpp"
 #include "index/live_triangulation.hpp"
 #include "index/look_listener.hpp"
 #include "index/observers.hpp"
@@ -157,9 +159,9 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   using Observation = detail::Observation<D>;
   using NearestSeen = detail::NearestSeen<D>;
   using CellSeen = detail::CellSeen<D>;
-  using StarSeen = detail::StarSeen<D>;
 
  public:
+  using Base::concern;
   using Base::role;
 
   VertexIndex(const MeshBox<D>& box, sac::Engine& engine)
@@ -167,7 +169,7 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
         engine_(engine),
         presences_(engine),
         observers_(engine, pool_, tree_),
-        log_(pool_, engine.arena()),
+        log_(pool_),
         id_(engine.add_structure(*this)) {}
 
   /// In a first run: cells are asked for from here on. All records are, or will be, vertices.
@@ -217,38 +219,55 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   }
   double nearest2(sac::Scope& s, VertexRef<D> v);
   CellLoan<D> star(sac::Scope& s, VertexRef<D> v);
-  /// In a first run run() asks for stars of vertices that are all there already: they are made at
-  /// once, if there is no triangulation.
-  template <class Run>
-  void with_first_stars(Run&& run) {
-    if (!reads() && may_read()) first_stars_.emplace(pool_);
-    const struct Forget {
-      VertexIndex& index;
-      ~Forget() { index.first_stars_.reset(), index.live_.reset(); }
-    } forget{*this};
-    run();
-  }
-
   void retract(sac::Call& call, sac::Edge& edge) noexcept override;
   void label(const sac::Call& call, const sac::Edge& edge, sac::LabelSink& sink) const override;
   void print(const sac::Call& call, const sac::Edge& edge, std::ostream& out) const override;
 
-  /// v's star, as its cell was written down by the call that computed it.
+  /// v's star, as its cell was written down by the call that looked at it; nothing if none did.
   [[nodiscard]] std::span<const std::uint32_t> ring(const Vertex<D>& v) const;
+
+  /// Ends a first run: from here on the triangulation is kept. Requires: all vertices are there.
+  void keep_triangulation() requires(D <= 3);
+  /// In an update: makes it that of the vertices that there are now, if it is kept.
+  /// Cost: O(simplices that come and go). Throws: std::bad_alloc.
+  void follow();
+  /// Calls visit(simplex) for each simplex: corners positively oriented. (Where an update has
+  /// failed, and memory has run out when the triangulation was put back, another one is made.)
+  template <class Visit>
+  void for_each_simplex(Visit&& visit) const {
+    if (kept_ != nullptr) return kept_->for_each_simplex(visit);
+    KeptTriangulation<D>(pool_, live_vertices()).for_each_simplex(visit);
+  }
+  /// The same of those with corner v, which comes first. Requires: follow() was called.
+  template <class Visit>
+  void for_each_simplex_at(const Vertex<D>& v, Visit&& visit) const {
+    kept_->for_each_simplex_at(v.self, visit);
+  }
+  [[nodiscard]] std::vector<VertexHandle> live_vertices() const {
+    return vertices_that([](const Vertex<D>& v) { return v.alive; });
+  }
+  /// Of the triangulation that is kept.
+  [[nodiscard]] std::size_t triangulation_bytes() const noexcept {
+    if constexpr (D <= 3) {
+      return kept_ == nullptr ? 0 : kept_->bytes();
+    } else {
+      return 0;
+    }
+  }
 
   /// Who an observation saw.
   [[nodiscard]] std::span<const std::uint32_t> seen_by(const Observation& o) const noexcept {
     return observers_.neighbours(o);
   }
 
-  /// Since the last commit: vertices that may have come or gone, and stars that went and came.
+  /// Since the last commit: vertices that may have come or gone; and simplices that went and came,
+  /// if the triangulation is kept.
   struct Log {
     std::vector<VertexHandle> touched;
-    std::vector<typename ChangeLog<D>::Star> stars_gone;
-    std::vector<typename ChangeLog<D>::Star> stars_come;
+    std::vector<std::array<VertexHandle, D + 1>> simplices_gone, simplices_come;
   };
-  /// Cost: O(what has changed). Throws: std::bad_alloc.
-  [[nodiscard]] Log log() const;
+  /// Follows, too. Cost: O(what has changed). Throws: std::bad_alloc.
+  [[nodiscard]] Log log();
   /// Ends an update: frees the records of vertices that nobody produces.
   void commit() noexcept;
   /// Ends an update whose edits were taken back before they were propagated. The engine still holds
@@ -307,7 +326,6 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   using Base::begin_with_ring;
   using Base::borrow_cell;
   using Base::box_;
-  using Base::concern;
   using Base::cut_around;
   using Base::cut_by_candidates;
   using Base::fail_coincident;
@@ -396,17 +414,20 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
     if (listener_ != nullptr && !looks_across_) [[unlikely]]
       listener_->looked(v, o, radius);
   }
-  void record_star(sac::Scope& s, Vertex<D>& v, Reach<D> reach);
   template <class Seen>
   bool begin(Cell& cell, const Vertex<D>& v, double radius, Seen& seen);
-  template <class Seen>
-  bool try_successors(Cell& cell, const Observation& last, Seen& seen);
-  bool add_around(Cell& cell, const Vertex<D>& gone);
   [[nodiscard]] const CellSeen* cell_of_producer(const Vertex<D>& v) const noexcept;
-  [[nodiscard]] const Ring* last_ring(const Vertex<D>& v) const noexcept;
-  [[nodiscard]] Ring* find_ring(const Vertex<D>& v) const noexcept;
-  [[nodiscard]] sac::Handle new_ring(VertexHandle center);
   void forget(Observation& o) noexcept;
+
+  template <class IsWanted>
+  [[nodiscard]] std::vector<VertexHandle> vertices_that(IsWanted&& is_wanted) const {
+    std::vector<VertexHandle> all;
+    pool_.for_each([&](const Vertex<D>& v) {
+      if (is_wanted(v)) all.push_back(v.self);
+    });
+    return all;
+  }
+  void put_triangulation_back() noexcept;
 
   [[nodiscard]] std::vector<std::uint32_t> canonical_codes(const Observation& o) const;
   void check_vertex(const Vertex<D>& v) const;
@@ -418,10 +439,11 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   ChangeLog<D> log_;
   std::uint8_t id_;
   std::vector<std::uint32_t> codes_;            // the cell being recorded, written down
+  std::vector<VertexHandle> near_;              // who is likely to be near
   CellSeen* last_cell_ = nullptr;               // the last one recorded
   std::unique_ptr<LiveTriangulation<D>> live_;  // in a first run
-  std::optional<FirstStars<D>> first_stars_;    // while a first run triangulates
-  std::vector<VertexHandle> gone_;              // the neighbours being replaced
+  bool keeps_ = false;                          // the triangulation, if there is memory for it
+  std::unique_ptr<KeptTriangulation<D>> kept_;  // null: not yet, or it had to be given up
   std::size_t trials_ = 0;
   LookListener<D>* listener_ = nullptr;
   bool looks_across_ = false;  // while look_across() runs

@@ -17,13 +17,31 @@ float VertexSearch<D>::packed(double x) const noexcept {
 }
 
 template <int D>
-Reach<D> VertexSearch<D>::concern(const Cell& cell) const noexcept {
-  const Vertex<D>& v = cell.center();
+Point<D> VertexSearch<D>::outward(const Vertex<D>& v) const noexcept {
   Point<D> outward{};
   for (int i = 0; v.boundary && i < D; ++i) {
     outward[i] = v.p[i] == box_.lo[i] ? -1 : v.p[i] == box_.hi(i) ? 1 : 0;
   }
-  Box<D> extent = cell.extent_inside(outward);
+  return outward;
+}
+
+template <int D>
+bool VertexSearch<D>::is_whole(const Cell& cell) const noexcept {
+  const Point<D> out = outward(cell.center());
+  for (int t = 0; t < cell.corners(); ++t) {
+    const auto& ends = cell.ends(t);
+    if (std::all_of(ends.begin(), ends.end(), [&](int i) { return cell.real(i); })) continue;
+    const Point<D> q = cell.corner(t);
+    bool beyond = false;
+    for (int i = 0; i < D; ++i) beyond = beyond || q[i] * out[i] > 0;
+    if (!beyond) return false;
+  }
+  return true;
+}
+
+template <int D>
+Reach<D> VertexSearch<D>::concern(const Cell& cell) const noexcept {
+  Box<D> extent = cell.extent_inside(outward(cell.center()));
   for (double& x : extent.lo) x /= box_.side;
   for (double& x : extent.hi) x /= box_.side;
   return Reach<D>(extent);

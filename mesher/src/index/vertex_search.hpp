@@ -27,6 +27,9 @@ namespace mesher::detail {
 
 template <int D = 2>
 class VertexSearch {
+ protected:
+  using Cell = CellOf<D>;
+
  public:
   explicit VertexSearch(const MeshBox<D>& box) : box_(box), tree_(box, pool_) {}
   VertexSearch(const VertexSearch&) = delete;
@@ -77,6 +80,15 @@ class VertexSearch {
     return beside(concern(cell));
   }
 
+  /// Where a vertex that comes may cut the cell, or one may be that bounds it: around its gap
+  /// balls. A corner of the cell of a vertex v on a side of the box, beyond that side, is never
+  /// cut. Proof: the grid is there from the start, so the corner's projection q on the side is at
+  /// most half an edge from v; a vertex nearer to the corner than v, being in the box, is nearer to
+  /// q, too, hence in the diametral ball of an edge of the grid. No vertex ever is [L 4.4.1].
+  [[nodiscard]] Reach<D> concern(const Cell& cell) const noexcept;
+  /// Whether the clip hides nothing of the cell: no virtual neighbour bounds it within the box.
+  [[nodiscard]] bool is_whole(const Cell& cell) const noexcept;
+
   /// Clip radius at which no corner of a star is hidden: circumcentres lie in the box.
   [[nodiscard]] double whole() const noexcept { return 2 * box_.side; }
 
@@ -97,7 +109,6 @@ class VertexSearch {
   }
 
  protected:
-  using Cell = CellOf<D>;
   using Tree = Quadtree<D>;
   using Codes = std::span<const typename Cell::Code>;
 
@@ -215,13 +226,6 @@ class VertexSearch {
         });
   }
 
-  /// Where a vertex that comes may cut the cell, or one may be that bounds it: around its gap
-  /// balls. A corner of the cell of a vertex v on a side of the box, beyond that side, is never
-  /// cut. Proof: the grid is there from the start, so the corner's projection q on the side is at
-  /// most half an edge from v; a vertex nearer to the corner than v, being in the box, is nearer to
-  /// q, too, hence in the diametral ball of an edge of the grid. No vertex ever is [L 4.4.1].
-  [[nodiscard]] Reach<D> concern(const Cell& cell) const noexcept;
-
   using Nearest = typename LiveTriangulation<D>::Nearest;
   template <class Seen>
   Nearest nearest_around(const Vertex<D>& v, Seen&& seen) const {
@@ -253,6 +257,9 @@ class VertexSearch {
 
   /// Cells and vertices that searches have looked at since this was asked last, each as often.
   [[nodiscard]] std::uint64_t take_visited() noexcept { return std::exchange(visited_, 0); }
+
+  /// Where a side of the box that v is on leads outward: -1 or 1 along its axis, else 0.
+  [[nodiscard]] Point<D> outward(const Vertex<D>& v) const noexcept;
 
   // Requires: roles_.reserve(v.self), unless the role is none.
   void set_role(Vertex<D>& v, const Role& role) noexcept {

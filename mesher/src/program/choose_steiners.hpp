@@ -177,7 +177,7 @@ void Complete::operator()(S& s, VertexRef<D> v, int b) const {
   const std::optional<int> later = cuts ? b + 1 : w.rule->next_bucket(*gaps, b, stays.filter());
   s.weigh(stays.looked_at());
   post_slivers(s, w, *gaps, b);
-  if (later) w.post_complete(s, v, *later);
+  later ? w.post_complete(s, v, *later) : w.post_border_star(s, v, *gaps);
 }
 
 }  // namespace mesher::detail

@@ -42,6 +42,12 @@ class RunMeter {
     if (progress_.of != 0) progress_.of = std::max(progress_.of, progress_.done);
     return report(control_, progress_);
   }
+  /// The same at the end of a run in which vertices were triangulated without calls.
+  [[nodiscard]] bool end(std::uint64_t calls) {
+    while (progress_.phase != Phase::triangulate) begin_next(calls);
+    progress_.done = progress_.of;
+    return report(control_, progress_);
+  }
 
  private:
   // Refine sets a mark where a phase ends.
@@ -53,7 +59,7 @@ class RunMeter {
     calls_before_ = calls;
     progress_.of = 0;
     if (progress_.phase != Phase::triangulate) return;
-    world_.vertices.pool().for_each([&](const Vertex<D>&) { ++progress_.of; });  // a star each
+    world_.vertices.pool().for_each([&](const Vertex<D>&) { ++progress_.of; });
   }
 
   const World<S, D>& world_;

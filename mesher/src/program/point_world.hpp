@@ -38,7 +38,7 @@ struct PlainOutput {
     if (++calls >= next_report) report(*this);
   }
 };
-struct TracedOutput {};  // the stars' observations are the output
+struct TracedOutput {};  // it is the triangulation that is kept, beyond space the stars
 
 /// Of all agendas: many buckets, three phases, a colour for each parity of coordinates.
 inline constexpr sac::KeyWidths kKeyWidths{.bucket = 26, .phase = 2, .colour = 4};
@@ -94,7 +94,12 @@ struct PointWorld {
   void post_nearest_from(S& s, VertexRef<D> v, double distance);
   void post_nearest_in(S& s, VertexRef<D> v, int b);
   void post_complete(S& s, VertexRef<D> v, int b);
+  /// Beyond space: v's star is looked at when all vertices are there.
   void post_star(S& s, VertexRef<D> v);
+  /// `cell`: of v, which has been completed. In a tile: v's star is looked at then if it may have
+  /// vertices beyond the territory, which are learnt of so. (Cells shrink: in any other star is no
+  /// vertex that has not been met.)
+  void post_border_star(S& s, VertexRef<D> v, const CellOf<D>& cell);
   /// Where the events of bucket b wait.
   [[nodiscard]] Agenda& steiner_at(int b) noexcept {
     if (parts.empty()) return steiner;
@@ -115,7 +120,7 @@ struct PointWorld {
   /// From here on vertices' neighbours are asked for. All that are not inserted by ChooseSteiners
   /// have records; in an update that does not matter.
   void begin_questions(S& s);
-  /// The stars of all vertices that were posted; in a static run all simplices.
+  /// The triangulation of all vertices, beyond space their stars; in a static run all simplices.
   void triangulate(S& s);
   /// In a static run: calls visit(corners) for each simplex. Requires: triangulated.
   template <class Visit>

@@ -1,9 +1,10 @@
-// Triangulate [§4.3.1]: the Delaunay star of every vertex is a call; in a static run, which has no
-// use for calls, all vertices are triangulated at once.
+// Triangulate [§4.3.1]. With the engine, in the plane and in space, the triangulation of all
+// vertices is kept from update to update (index/kept_triangulation.hpp); in a static run all
+// vertices are triangulated at once. Beyond space the Delaunay star of every vertex is a call.
 //
-// Exact predicates with ties decided by coordinates make the Delaunay triangulation unique, so both
-// give the same simplices, and the vertices of a simplex agree on it; of the stars it is output by
-// the one with the smallest coordinates.
+// Exact predicates with ties decided by coordinates make the Delaunay triangulation unique, so all
+// give the same simplices, and the vertices of a simplex agree on it; of their stars it is output
+// by the one with the smallest coordinates.
 #pragma once
 
 #include <array>
@@ -21,7 +22,7 @@ struct Star {
   template <class S, int D>
   void operator()(S& s, VertexRef<D> v) const {
     auto& w = s.template environment<World<S, D>>();
-    static_cast<void>(w.vertices.star(s, v));  // recorded: that is the output
+    static_cast<void>(w.vertices.star(s, v));  // recorded: the output, or what a tile asks
   }
 };
 inline constexpr Star star{};
@@ -31,27 +32,20 @@ template <std::size_t N>
   return {.order = morton<N>(f)};
 }
 
-/// Calls emit(simplex) for each simplex of v's star, as it was written down, whose other corners
-/// are all `wanted`: its corners positively oriented, v first. Virtual neighbours bound nothing.
-template <int D, class Wanted, class Emit>
-void for_each_simplex_at(const Vertex<D>& v, std::span<const std::uint32_t> record, Wanted&& wanted,
-                         Emit&& emit) {
-  CellOf<D>::for_each_link_simplex(record, [&](const std::array<std::uint32_t, D>& ends) {
-    std::array<VertexHandle, D + 1> simplex{v.self};
-    bool all = true;
-    for (std::size_t k = 0; k < D; ++k) {
-      all = all && ends[k] < CellOf<D>::kVirtual && wanted(ends[k]);
-      simplex[k + 1] = ends[k];
-    }
-    if (all) emit(simplex);
-  });
-}
-/// The same of those that v outputs.
+/// Calls emit(simplex) for each simplex of v's star, as it was written down, that v outputs: its
+/// corners positively oriented, v first. Virtual neighbours bound nothing.
 template <int D, class Emit>
 void for_each_own_simplex(const VertexPool<D>& pool, const Vertex<D>& v,
                           std::span<const std::uint32_t> record, Emit&& emit) {
-  const auto is_larger = [&](VertexHandle w) { return v.p < pool[w].p; };
-  for_each_simplex_at(v, record, is_larger, emit);
+  CellOf<D>::for_each_link_simplex(record, [&](const std::array<std::uint32_t, D>& ends) {
+    std::array<VertexHandle, D + 1> simplex{v.self};
+    bool is_own = true;
+    for (std::size_t k = 0; k < D; ++k) {
+      is_own = is_own && ends[k] < CellOf<D>::kVirtual && v.p < pool[ends[k]].p;
+      simplex[k + 1] = ends[k];
+    }
+    if (is_own) emit(simplex);
+  });
 }
 
 /// The simplices of all vertices; ticks once for each.

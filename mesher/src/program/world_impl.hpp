@@ -29,7 +29,7 @@ void PointWorld<S, D>::add_boundary() {
     const Fixed<D> f = box.fixed(p);
     if (!owns(p)) return;
     steiner_at(b).template post_from_outside<complete>(complete_key(buckets(), f, b), v, b);
-    if constexpr (S::kTraced) stars.template post_from_outside<star>(star_key(f), v);
+    if constexpr (S::kTraced && D > 3) stars.template post_from_outside<star>(star_key(f), v);
   });
 }
 
@@ -119,8 +119,17 @@ bool World<S, 2>::post_cuts(S& s, const std::vector<LeafRef>& found, int b) {
 
 template <class S, int D>
 void PointWorld<S, D>::post_star(S& s, VertexRef<D> v) {
-  if constexpr (S::kTraced) {
-    if (owns(v->p)) stars.template post<star>(s, star_key(box.fixed(v->p)), v);
+  if constexpr (S::kTraced && D > 3) {
+    stars.template post<star>(s, star_key(box.fixed(v->p)), v);
+  }
+}
+
+template <class S, int D>
+void PointWorld<S, D>::post_border_star(S& s, VertexRef<D> v, const CellOf<D>& cell) {
+  if constexpr (S::kTraced && D <= 3) {
+    if (border == nullptr) return;
+    if (vertices.is_whole(cell) && border->holds(*v, vertices.concern(cell))) return;
+    stars.template post<star>(s, star_key(box.fixed(v->p)), v);
   }
 }
 
@@ -135,8 +144,10 @@ void PointWorld<S, D>::begin_questions(S&) {
 
 template <class S, int D>
 void PointWorld<S, D>::triangulate(S& s) {
-  if constexpr (S::kTraced) {
-    vertices.with_first_stars([&] { stars.drain(s); });
+  if constexpr (S::kTraced && D <= 3) {
+    vertices.keep_triangulation();
+  } else if constexpr (S::kTraced) {
+    stars.drain(s);
   } else if (vertices.triangulation() != nullptr) {  // it is done
     vertices.pool().for_each([&](const Vertex<D>&) { plain.tick(); });
   } else if constexpr (D <= 3) {

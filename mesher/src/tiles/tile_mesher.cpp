@@ -210,7 +210,7 @@ void TileMesher<D>::run_part(int part) {
 template <int D>
 void TileMesher<D>::run_stars() {
   counts_.run += engine_->template run<detail::run_stars<D>>().executed;
-  world_->vertices.end_reading();
+  world_->vertices.keep_triangulation();
 }
 
 template <int D>
@@ -233,7 +233,7 @@ void TileMesher<D>::propagate() {
 template <int D>
 std::vector<Message<D>> TileMesher<D>::collect(Changes* changes) {
   std::vector<Message<D>> out;
-  const auto log = world_->vertices.log();
+  const Log log = world_->vertices.log();
   Doubtful doubtful(askers_.size());
   for (const VertexHandle h : log.touched) {
     const auto [begin, end] = told_to_.equal_range(h);
@@ -243,7 +243,7 @@ std::vector<Message<D>> TileMesher<D>::collect(Changes* changes) {
   collect_births(out);
   collect_answers(doubtful);
   tell(doubtful, out);
-  if (changes != nullptr) collect_changes(*changes);
+  if (changes != nullptr) collect_changes(log, *changes);
   count_own(log.touched);
   world_->vertices.keep_reading(log.touched);
   world_->vertices.commit();
@@ -367,20 +367,22 @@ void TileMesher<D>::count_own(const std::vector<VertexHandle>& touched) noexcept
 }
 
 template <int D>
+bool TileMesher<D>::outputs(const Simplex& t) const noexcept {
+  const auto& pool = world_->vertices.pool();
+  const auto is_before = [&](VertexHandle a, VertexHandle b) { return pool[a].p < pool[b].p; };
+  return border_->owns(pool[*std::min_element(t.begin(), t.end(), is_before)].p);
+}
+
+template <int D>
 std::size_t TileMesher<D>::own_simplices() const {
   std::size_t count = 0;
-  const auto& pool = world_->vertices.pool();
-  pool.for_each([&](const Vertex<D>& v) {
-    if (!v.alive || !border_->owns(v.p)) return;
-    for_each_own_simplex(pool, v, world_->vertices.ring(v), [&](const auto&) { ++count; });
-  });
+  for_each_own([&](const Simplex&) { ++count; });
   return count;
 }
 
 template <int D>
-void TileMesher<D>::collect_changes(Changes& changes) const {
+void TileMesher<D>::collect_changes(const Log& log, Changes& changes) const {
   const auto& pool = world_->vertices.pool();
-  const auto log = world_->vertices.log();
   for (const VertexHandle h : log.touched) {
     const Vertex<D>& v = pool[h];
     if (!border_->owns(v.p)) continue;
@@ -389,17 +391,16 @@ void TileMesher<D>::collect_changes(Changes& changes) const {
     if (v.committed) changes.vertices.push_back({v.p, v.committed_kind, false});
     if (v.alive) changes.vertices.push_back({v.p, v.kind(), true});
   }
-  const auto add = [&](const auto& stars, auto& simplices) {
-    for (const auto& star : stars) {
-      for_each_own_simplex(pool, pool[star.center], star.ring, [&](const auto& t) {
-        auto& places = simplices.emplace_back();
-        for (std::size_t k = 0; k < t.size(); ++k) places[k] = pool[t[k]].p;
-        places = smallest_first(places);
-      });
+  const auto add = [&](const std::vector<Simplex>& simplices, auto& all) {
+    for (const Simplex& t : simplices) {
+      if (!outputs(t)) continue;
+      auto& places = all.emplace_back();
+      for (std::size_t k = 0; k < t.size(); ++k) places[k] = pool[t[k]].p;
+      places = smallest_first(places);
     }
   };
-  add(log.stars_gone, changes.simplices_gone);
-  add(log.stars_come, changes.simplices_come);
+  add(log.simplices_gone, changes.simplices_gone);
+  add(log.simplices_come, changes.simplices_come);
 }
 
 // --- Between runs ----------------------------------------------------------------------------
@@ -445,7 +446,8 @@ std::string TileMesher<D>::fault_with(const TileMesher& other) const {
 template <int D>
 std::size_t TileMesher<D>::bytes() const {
   const auto& vertices = world_->vertices;
-  return engine_->bytes() + vertices.pool().bytes() + vertices.tree().bytes();
+  return engine_->bytes() + vertices.pool().bytes() + vertices.tree().bytes() +
+         vertices.triangulation_bytes();
 }
 
 template <int D>

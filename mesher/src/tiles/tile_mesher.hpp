@@ -106,6 +106,16 @@ class TileMesher {
   /// Vertices of the territory, and simplices that one of them outputs.
   [[nodiscard]] std::size_t own_vertices() const noexcept { return own_vertices_; }
   [[nodiscard]] std::size_t own_simplices() const;
+  /// By handles, positively oriented. It outputs those whose corner of the least coordinates is its
+  /// own.
+  using Simplex = std::array<VertexHandle, D + 1>;
+  /// Calls visit(simplex) for those.
+  template <class Visit>
+  void for_each_own(Visit&& visit) const {
+    world_->vertices.for_each_simplex([&](const Simplex& t) {
+      if (outputs(t)) visit(t);
+    });
+  }
   [[nodiscard]] const World<sac::Scope, D>& world() const noexcept { return *world_; }
   [[nodiscard]] const TileBorder<D>& border() const noexcept { return *border_; }
   [[nodiscard]] const TileCounts& counts() const noexcept { return counts_; }
@@ -168,7 +178,9 @@ class TileMesher {
   [[nodiscard]] std::optional<Turn<D>> birth_for(std::uint32_t asker, const Vertex<D>& v) const;
   [[nodiscard]] bool has_arrived(std::size_t from, const Point<D>& p, const Turn<D>& turn) const;
   void count_own(const std::vector<VertexHandle>& touched) noexcept;
-  void collect_changes(Changes& changes) const;
+  using Log = typename VertexIndex<sac::Scope, D>::Log;
+  void collect_changes(const Log& log, Changes& changes) const;
+  [[nodiscard]] bool outputs(const Simplex& t) const noexcept;
 
   const Territories<D>& all_;
   std::size_t self_;

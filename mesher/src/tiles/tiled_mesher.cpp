@@ -544,12 +544,9 @@ void TiledMesher<D>::list_simplices(std::size_t t, std::vector<Part>& parts, Oth
     }
     return foreign[h];
   };
-  pool.for_each([&](const Vertex<D>& v) {
-    if (part.number[v.self] == kUnnumbered) return;
-    for_each_own_simplex(pool, v, vertices.ring(v), [&](const auto& simplex) {
-      auto& corners = part.simplices.emplace_back();
-      for (std::size_t k = 0; k < simplex.size(); ++k) corners[k] = number_of(simplex[k]);
-    });
+  tiles_[t]->for_each_own([&](const auto& simplex) {
+    auto& corners = part.simplices.emplace_back();
+    for (std::size_t k = 0; k < simplex.size(); ++k) corners[k] = number_of(simplex[k]);
   });
 }
 

@@ -124,7 +124,7 @@ TEST_CASE("an update that is stopped leaves the old mesh, and its edits to be ma
   const Mesh<2> before = m.mesh();
   for (const int n : {1, 2, 3, 4, 5}) {
     CAPTURE(n);
-    shake(m, points, 50);
+    shake(m, points, 100);
     m.remove(PointId{900});
     CHECK(error_of([&] { m.update(stopping_at(n)); }).code() == ErrorCode::cancelled);
     CHECK(m.mesh() == before);

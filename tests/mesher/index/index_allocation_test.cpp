@@ -28,9 +28,8 @@ Stars stars_of(TracedWorld& world) {
   const auto& vertices = world.world().vertices;
   vertices.pool().for_each([&](const auto& v) {
     std::vector<Point<2>> star;
-    for (const std::uint32_t code : vertices.ring(v)) {
-      if (code < mesher::detail::VoronoiCell::kVirtual) star.push_back(vertices.pool()[code].p);
-    }
+    vertices.for_each_simplex_at(v,
+                                 [&](const auto& t) { star.push_back(vertices.pool()[t[1]].p); });
     std::rotate(star.begin(), std::min_element(star.begin(), star.end()), star.end());
     star.insert(star.begin(), v.p);
     all.push_back(std::move(star));
@@ -103,4 +102,36 @@ TEST_CASE("the same for any one allocation of calls, edges and rings") {
   const auto arm = [](TracedWorld& w, std::uint64_t k) { engine_of(w).arena().fail_after(k); };
   const auto disarm = [](TracedWorld& w) { engine_of(w).arena().fail_after(0); };
   CHECK(sweep(arm, disarm) > 300);
+}
+
+TEST_CASE("where memory is out when an update is taken back, the triangulation is made anew") {
+  const auto world = world_of_points();
+  auto& vertices = world->world().vertices;
+  const auto before = world->mesh();
+  edit(*world);
+  struct Stop {};
+  bool stopped = false;
+  try {
+    engine_of(*world).propagate([&] {
+      vertices.follow();
+      throw Stop();
+    });
+  } catch (const Stop&) {
+    stopped = true;
+    support::memory_is_out = true;
+    vertices.commit();
+  }
+  support::memory_is_out = false;
+  REQUIRE(stopped);
+  CHECK(vertices.triangulation_bytes() == 0);
+  CHECK(world->mesh() == before);
+  vertices.check_invariants();
+  world->insert(PointId{500}, {0.77, 0.11});
+  world->update();
+  vertices.check_invariants();
+  CHECK(vertices.triangulation_bytes() > 0);
+  const auto other = world_of_points();
+  other->insert(PointId{500}, {0.77, 0.11});
+  other->update();
+  CHECK(world->mesh() == other->mesh());
 }

@@ -1,0 +1,152 @@
+// Vertices that come and go.
+#include "index/kept_triangulation.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include "delaunay/build.hpp"
+#include "delaunay/facets.hpp"
+#include "delaunay/spatial_order.hpp"
+#include "mesh/canonical.hpp"
+#include "sac/check.hpp"
+
+namespace mesher::detail {
+
+namespace {
+
+// More than one of so many that go, and all are triangulated anew: it takes a tenth of the time
+// that it takes to remove as many.
+constexpr std::size_t kManyGo = 8;
+
+template <int D>
+void put_in_spatial_order(const VertexPool<D>& pool, std::vector<VertexHandle>& vertices) {
+  std::vector<Point<D>> places;
+  places.reserve(vertices.size());
+  for (const VertexHandle v : vertices) places.push_back(pool[v].p);
+  std::vector<std::uint32_t> order = spatial_order<D>(std::span<const Point<D>>(places));
+  for (std::uint32_t& i : order) i = vertices[i];
+  vertices = std::move(order);
+}
+
+template <int D>
+[[nodiscard]] DelaunayKernel<D> triangulation_of(const VertexPool<D>& pool,
+                                                 std::vector<VertexHandle> vertices) {
+  DelaunayKernel<D> kernel;
+  kernel.reserve(pool.end_of_handles());
+  const Point<D>& any = pool[vertices.front()].p;  // of handles that are no vertices
+  while (kernel.places() + 1 < pool.end_of_handles()) static_cast<void>(kernel.add_place(any));
+  for (const VertexHandle v : vertices) kernel.set_place(v, pool[v].p);
+  put_in_spatial_order(pool, vertices);
+  const bool built = build<D>(kernel, vertices, [](std::uint32_t, std::uint32_t) {});
+  SAC_ENSURES(built);
+  static_cast<void>(built);
+  return kernel;
+}
+
+}  // namespace
+
+template <int D>
+KeptTriangulation<D>::KeptTriangulation(const VertexPool<D>& pool,
+                                        std::vector<VertexHandle> vertices)
+    : kernel_(triangulation_of(pool, std::move(vertices))) {}
+
+// Those that go do so after the others have come, and the last first of an order whose first ones
+// are far apart: else stars would grow.
+template <int D>
+void KeptTriangulation<D>::change(const VertexPool<D>& pool, std::vector<VertexHandle> come,
+                                  std::vector<VertexHandle> gone, VertexHandle near) {
+  if (gone.size() * kManyGo > pool.size()) return make_anew(pool, come, gone);
+  put_in_spatial_order(pool, come);
+  put_in_spatial_order(pool, gone);
+  if (near != 0) kernel_.walk_from(near);
+  for (const VertexHandle v : come) insert(pool[v]);
+  for (auto v = gone.rbegin(); v != gone.rend(); ++v) remove(*v);
+}
+
+template <int D>
+void KeptTriangulation<D>::make_anew(const VertexPool<D>& pool,
+                                     const std::vector<VertexHandle>& come,
+                                     const std::vector<VertexHandle>& gone) {
+  std::vector<VertexHandle> all = come;
+  pool.for_each([&](const Vertex<D>& v) {
+    if (has(v.self)) all.push_back(v.self);
+  });
+  std::vector<VertexHandle> out = gone;
+  std::sort(out.begin(), out.end());
+  const auto goes = [&](VertexHandle v) { return std::binary_search(out.begin(), out.end(), v); };
+  all.erase(std::remove_if(all.begin(), all.end(), goes), all.end());
+  KeptTriangulation anew(pool, std::move(all));
+  anew.gone_ = std::move(gone_);
+  anew.come_ = std::move(come_);
+  for_each_simplex([&](const Simplex& s) { anew.gone_.push_back(s); });
+  anew.for_each_simplex([&](const Simplex& s) { anew.come_.push_back(s); });
+  *this = std::move(anew);
+}
+
+template <int D>
+void KeptTriangulation<D>::insert(const Vertex<D>& v) {
+  while (kernel_.places() < v.self) static_cast<void>(kernel_.add_place(v.p));
+  kernel_.set_place(v.self, v.p);
+  const std::uint32_t s = kernel_.walk(v.p, kernel_.simplex_at(kernel_.last_changed()));
+  const auto is_elsewhere = [&](std::uint32_t w) { return kernel_.place(w) != v.p; };
+  const auto& corners = kernel_.simplices().corners(s);
+  SAC_EXPECTS(std::all_of(corners.begin(), corners.end(), is_elsewhere));
+  kernel_.dig(v.self, s);
+  try {
+    for (const std::uint32_t doomed : kernel_.doomed()) note(doomed, gone_);
+    kernel_.for_each_facet_of_hole([&](const std::array<std::uint32_t, D>& facet) {
+      if (std::find(facet.begin(), facet.end(), kInfinite) != facet.end()) return;
+      Simplex made;
+      std::copy(facet.begin(), facet.end(), made.begin());
+      made[D] = v.self;
+      come_.push_back(made);
+    });
+  } catch (...) {
+    kernel_.undo_dig();
+    throw;
+  }
+  kernel_.fill(v.self);
+}
+
+template <int D>
+void KeptTriangulation<D>::remove(VertexHandle v) {
+  for (const std::uint32_t s : kernel_.star(v)) note(s, gone_);
+  const bool removed = kernel_.remove(v);
+  SAC_ENSURES(removed);
+  static_cast<void>(removed);
+  for (const std::uint32_t s : kernel_.made()) note(s, come_);
+}
+
+template <int D>
+void KeptTriangulation<D>::note(std::uint32_t s, std::vector<Simplex>& all) const {
+  if (!kernel_.is_ghost(s)) all.push_back(kernel_.simplices().corners(s));
+}
+
+template <int D>
+auto KeptTriangulation<D>::news() -> News {
+  for (auto* all : {&gone_, &come_}) {
+    for (Simplex& s : *all) s = smallest_first(s);
+    std::sort(all->begin(), all->end());
+  }
+  News news;
+  std::set_difference(gone_.begin(), gone_.end(), come_.begin(), come_.end(),
+                      std::back_inserter(news.gone));
+  std::set_difference(come_.begin(), come_.end(), gone_.begin(), gone_.end(),
+                      std::back_inserter(news.come));
+  return news;
+}
+
+template <int D>
+void KeptTriangulation<D>::commit() noexcept {
+  gone_ = std::vector<Simplex>();  // not {}, which keeps the room
+  come_ = std::vector<Simplex>();
+}
+
+template class KeptTriangulation<2>;
+#ifndef MESHER_PLANE_ONLY
+template class KeptTriangulation<3>;
+#endif
+
+}  // namespace mesher::detail
