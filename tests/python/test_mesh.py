@@ -63,7 +63,7 @@ class Plane(unittest.TestCase):
         segments = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4)]
         m = lm.mesh(points, segments=segments, segment_markers=[7, 1, 1, 1, 2, 2, 2, 2],
                     holes=[(.5, .5)], regions=[(.1, .1, 7, 1e-3)], min_angle=28, max_area=.01,
-                    size=lambda xy: .02 + .1 * np.hypot(*xy.T), repair=True)
+                    size=lambda xy: .02 + .1 * np.hypot(*xy.T), repair=True, order=1)
         self.assertGreaterEqual(m.quality("min_angle").min(), 20)
         self.assertAlmostEqual(areas(m.points, m.cells).sum(), 1 - .01)
         self.assertLessEqual(areas(m.points, m.cells).max(), 1e-3)
@@ -72,6 +72,10 @@ class Plane(unittest.TestCase):
         inlet = m.facets_named("inlet")
         self.assertTrue((m.points[inlet][..., 1] == 0).all())
         self.assertEqual(len(m.cells_named("rock")), len(m.cells))
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "lake.msh")
+            m.write(path, version=2.2)
+            np.testing.assert_array_equal(lm.Mesh.read(path).cells, m.cells)
 
     def test_arrays_fit_together(self):
         m = lm.mesh(SQUARE, polylines=RING, polyline_markers=5, max_area=.003)
@@ -261,11 +265,11 @@ class Inputs(unittest.TestCase):
         self.assertIs(m.name(facets={"inlet": 7}, cells={"rock": 3}), m)
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "m.msh")
-            for version in ("4.1", "2.2"):
+            for version in ("4.1", "2.2", 4.1, 2.2, np.float64(2.2), np.float32(4.1)):
                 m.write(path, version=version)
                 with open(path) as file:
                     text = file.read()
-                self.assertIn(f"\n{version} 0 8\n", text)
+                self.assertIn(f"\n{version!s} 0 8\n", text)
                 self.assertIn('1 7 "inlet"', text)
                 self.assertIn('2 3 "rock"', text)
                 again = lm.Mesh.read(path)
@@ -280,8 +284,9 @@ class Inputs(unittest.TestCase):
                 with self.assertRaises(lm.Error) as caught:
                     lm.Mesh.read(path).name(facets={wrong: 7}, cells={"rock": 3}).write(path)
                 self.assertEqual(caught.exception.code, "bad_option")
-            self.assertRaises(ValueError, m.write, path, version="3")
-            self.assertRaises(ValueError, m.write, path, version=2.2)
+            for wrong in ("3", 3, 2.1, 22, 4, None, float("nan"), "2.2 "):
+                with self.assertRaisesRegex(ValueError, "not one of 4.1, 2.2"):
+                    m.write(path, version=wrong)
             self.assertRaises(TypeError, m.name(facets={1: 7}).write, path)
             stl = os.path.join(folder, "two.stl")
             with open(stl, "w") as file:
