@@ -5,6 +5,7 @@
  *   misuse [SEED [CALLS]]
  */
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -386,8 +387,9 @@ static lm_status call(void) {
         field = calloc((size_t)info.point_slots + 1, 2 * sizeof *field);
         if (field == NULL) return LM_OK;
         status = lm_change_transfer(
-            change, below(3), field, below((unsigned)info.point_slots + 1), field,
-            (size_t)info.point_slots - (once_in(9) && info.point_slots > 0));
+            change, below(3), field,
+            (size_t)(once_in(3) ? below((unsigned)info.point_slots + 1) : info.point_slots_before),
+            field, (size_t)info.point_slots - (once_in(9) && info.point_slots > 0));
         free(field);
         return status;
       }
@@ -540,6 +542,28 @@ static const char* callbacks_read_graphs_alone(lm_handle graph, lm_handle live) 
   return NULL;
 }
 
+static const char* fields_have_a_row_for_each_slot(lm_handle live) {
+  static const double at[] = {.4, .4, .6, .4};
+  static double field[10000];
+  lm_change_info info = {.size = sizeof info};
+  lm_change_info older = {.size = offsetof(lm_change_info, point_slots_before)};
+  lm_handle change;
+  size_t before, after;
+  HOLDS(lm_live_add_points(live, 2, at, NULL, NULL, NULL) == LM_OK);
+  HOLDS(lm_live_update(live, NULL, &change) == LM_OK);
+  HOLDS(lm_change_describe(change, &info) == LM_OK);
+  before = (size_t)info.point_slots_before;
+  after = (size_t)info.point_slots;
+  HOLDS(0 < before && before < after && after <= sizeof field / sizeof *field);
+  HOLDS(lm_change_transfer(change, 1, field, before - 1, field, after) == LM_BAD_ARGUMENT);
+  HOLDS(lm_change_transfer(change, 1, field, before, field, after - 1) == LM_BAD_ARGUMENT);
+  HOLDS(lm_change_transfer(change, 1, field, before, field, after) == LM_OK);
+  HOLDS(lm_change_transfer(change, 1, field, after, field, after) == LM_OK);
+  HOLDS(lm_change_describe(change, &older) == LM_OK && older.point_slots == after);
+  HOLDS(older.point_slots_before == 0);
+  return lm_free(change) == LM_OK ? NULL : "a change is freed";
+}
+
 static const char* broken_rule(void) {
   static const double corners[] = {.25, .25, .75, .25, .5, .75, 0, 0};
   static const int64_t around[] = {0, 1, 2, 0};
@@ -552,6 +576,7 @@ static const char* broken_rule(void) {
   HOLDS(lm_live_new(2, &box, &live) == LM_OK && lm_live_add_graph(live, graph) == LM_OK);
   HOLDS(lm_live_update(live, NULL, NULL) == LM_OK);
   broken = results_are_written_on_success_alone(live);
+  if (broken == NULL) broken = fields_have_a_row_for_each_slot(live);
   if (broken == NULL) broken = texts_stay(live);
   if (broken == NULL) broken = undo_undoes_whole_updates();
   if (broken == NULL) broken = callbacks_read_graphs_alone(graph, live);

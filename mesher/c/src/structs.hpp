@@ -18,6 +18,9 @@ template <class T>
 inline constexpr std::size_t kFirstSize = sizeof(T);
 template <>
 inline constexpr std::size_t kFirstSize<lm_options> = offsetof(lm_options, periodic_count);
+template <>
+inline constexpr std::size_t kFirstSize<lm_change_info> = offsetof(lm_change_info,
+                                                                   point_slots_before);
 
 template <class T>
 [[nodiscard]] bool is_size_of(std::size_t size) noexcept {
