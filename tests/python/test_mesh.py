@@ -1,5 +1,6 @@
 """Meshes that are made once: arrays, lifetimes, inputs of all kinds, files."""
 import gc
+import importlib.util
 import os
 import tempfile
 import unittest
@@ -184,6 +185,32 @@ class Inputs(unittest.TestCase):
                             "geometry": Geometry()}]}):
             m = lm.mesh(source, min_angle=28)
             self.assertAlmostEqual(areas(m.points, m.cells).sum(), 15)
+
+    @unittest.skipUnless(importlib.util.find_spec("shapely"), "shapely is not there")
+    def test_shapely(self):
+        from shapely import geometry
+
+        ring = geometry.Polygon([(0, 0), (4, 0), (4, 4), (0, 4)],
+                                [[(1, 1), (2, 1), (2, 2), (1, 2)]])
+        island = geometry.box(6, 0, 7, 2)
+        for source, area in ((ring, 15), (geometry.MultiPolygon([ring, island]), 17),
+                             (geometry.Point(0, 0).buffer(1, 16), None),
+                             ({"type": "FeatureCollection", "features": [
+                                 {"type": "Feature", "geometry": ring, "properties": {}},
+                                 {"type": "Feature", "geometry": island, "properties": {}}]}, 17)):
+            m = lm.mesh(source, min_angle=28)
+            area = area or source.area
+            self.assertAlmostEqual(areas(m.points, m.cells).sum(), area)
+        m = lm.mesh(ring, min_angle=28)
+        corners = {tuple(p) for r in (ring.exterior, *ring.interiors) for p in r.coords}
+        self.assertTrue(corners <= {tuple(p) for p in m.points})
+        inside = ring.buffer(1e-9)
+        self.assertTrue(all(inside.contains(geometry.Polygon(t)) for t in m.points[m.cells]))
+        line = geometry.LineString([(.5, 3), (3.5, 3)])
+        split = lm.mesh(geometry.GeometryCollection([ring, line]), min_angle=28)
+        on = split.points[split.facets]
+        on = on[(on[..., 1] == 3).all(1) & (on[..., 0] >= .5).all(1) & (on[..., 0] <= 3.5).all(1)]
+        self.assertAlmostEqual(abs(on[:, 0, 0] - on[:, 1, 0]).sum(), 3)
 
     def test_files(self):
         m = lm.mesh(os.path.join(DATA, "great_lakes.poly"), min_angle=25)

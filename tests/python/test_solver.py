@@ -1,5 +1,5 @@
-"""A solver (GetDP, with the program of its page) on the meshes of a LiveMesh, before and after edits:
-a linear potential is exact on each of them. Skipped without getdp."""
+"""GetDP, with the program of its page, on the meshes of a LiveMesh, before and after edits: a linear
+potential is exact on each of them. Skipped without getdp."""
 import os
 import pathlib
 import re
