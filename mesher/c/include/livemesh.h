@@ -444,8 +444,8 @@ typedef enum lm_name_kind {
   LM_NAME_CELLS = 2   /* of a region */
 } lm_name_kind;
 
-/* The name of a group in .msh, .inp and .su2: 1 to 80 bytes without blanks and quotes
- * (mesher/names.hpp). */
+/* The name of a group in .msh, .inp and .su2, of faces in space also in .stl and .obj: 1 to 80
+ * bytes without blanks and quotes (mesher/names.hpp). */
 typedef struct lm_name {
   size_t size;
   int32_t kind; /* lm_name_kind */

@@ -84,8 +84,9 @@ class Mesh:
               version: Union[str, float] = "4.1") -> None:
         """Writes .node (with .ele and others beside it), .vtu, .vtk, .msh, .inp (Abaqus, CalculiX),
         .su2, .mesh, .off, .obj, .svg, in space also .stl: whole, or not at all. Names of groups go
-        to .msh, .inp and .su2; of several names of a number, the last. A mesh of second order goes
-        to .msh, .inp, .vtu, .vtk and .node. version: of .msh, 4.1 or 2.2, a number or text."""
+        to .msh, .inp and .su2, those of faces in space to .stl and .obj; of several names of a
+        number, the last. A mesh of second order goes to .msh, .inp, .vtu, .vtk and .node. version:
+        of .msh, 4.1 or 2.2, a number or text."""
         msh_version = _MSH_VERSIONS.get(str(version))
         if msh_version is None:
             raise ValueError(f"version is {version!r}, not one of {', '.join(_MSH_VERSIONS)}")
