@@ -22,9 +22,10 @@ program() {
 program dpkg-query 'exit 1'
 program sudo '"$@"'
 program cmake 'exit 0'
+program ctest 'exit 0'
 program ninja 'exit 0'
 
-# run_with TIMES MESSAGE: apt-get fails so often with the message, then succeeds.
+# run_with TIMES MESSAGE [COMMAND]: apt-get fails so often with the message, then succeeds.
 run_with() {
   : >"$scratch/calls"
   program apt-get "echo \"\$*\" >>'$scratch/calls'
@@ -32,7 +33,7 @@ run_with() {
   # A copy, so that no build folder is made.
   mkdir -p "$scratch/repo"
   cp "$run" "$scratch/repo/run"
-  PATH="$scratch/bin:$PATH" bash "$scratch/repo/run" build >"$scratch/out" 2>&1
+  PATH="$scratch/bin:$PATH" bash "$scratch/repo/run" "${3:-build}" >"$scratch/out" 2>&1
 }
 
 run_with 0 '' || fail "does not install: $(cat "$scratch/out")"
@@ -46,5 +47,12 @@ run_with 2 'E: Could not get lock /var/lib/apt/lists/lock. It is held by process
 run_with 9 'E: The repository has no Release file.' && fail 'goes on without packages'
 [[ $(wc -l <"$scratch/calls") == 1 ]] || fail 'tries again what cannot succeed'
 grep -q 'no Release file' "$scratch/out" || fail 'does not say why apt failed'
+
+# What the tests of `soak` skip without.
+run_with 0 '' soak || fail "soak does not install: $(cat "$scratch/out")"
+for package in catch2 python3-sphinx doxygen debootstrap libdeal.ii-dev python3-dolfinx freefem++ \
+  openfoam; do
+  grep ' install ' "$scratch/calls" | grep -qFw -- "$package" || fail "soak does not install $package"
+done
 
 exit "$failed"

@@ -309,8 +309,8 @@ void add_mesh_options(CLI::App& command, MeshArguments& args, MeshGoes goes) {
     command.add_option(option, names, help)->type_name("N=NAME")->allow_extra_args(false);
   };
   add_names("--name-marker", args.marker_names,
-            "In .msh, .inp and .su2: the name of the lines (in space polygons) of marker N, as\n"
-            "7=inlet; without one marker_7. May be repeated");
+            "In .msh, .inp and .su2, in space also .stl and .obj: the name of the lines (in space\n"
+            "polygons) of marker N, as 7=inlet; without one marker_7. May be repeated");
   add_names("--name-line", args.line_names, "In space: of the lines of marker N, else line_N");
   add_names("--name-region", args.region_names,
             "Of the regions of attribute N, as 3=rock, else region_3");

@@ -5,6 +5,7 @@
  *   misuse [SEED [CALLS]]
  */
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -172,9 +173,11 @@ static lm_status look_at_names(void) {
   if (status == LM_OK && name->size >= sizeof *name) seen += strlen(name->name);
   return status;
 }
+static const int64_t kSides[] = {4, 2, 1, 3}; /* markers of a square: left, right, bottom, top */
 static lm_options* options(void) {
   WITH_ROOM(lm_options, all);
   static lm_box_limits boxes[128]; /* two, and room */
+  static int64_t pairs[4];
   int i;
   if (once_in(6)) return NULL;
   memset(&all_room, 0, sizeof all_room);
@@ -189,6 +192,13 @@ static lm_options* options(void) {
   if (once_in(8)) all->extent = small(2);
   if (once_in(4)) all->algorithm = small(4);
   if (once_in(12)) all->rule = small(2);
+  if (once_in(6)) all->growth = once_in(4) ? 3 * number() : 1.25 + number();
+  if (once_in(4)) all->threads = once_in(6) ? small(300) : 1 + small(4);
+  if (once_in(4)) {
+    for (i = 0; i < 4; ++i) pairs[i] = once_in(9) ? id() : kSides[i];
+    all->periodic = once_in(20) ? NULL : pairs;
+    all->periodic_count = below(3);
+  }
   all->region_limits = small(2);
   all->no_flat = small(2);
   if (once_in(9)) {
@@ -221,6 +231,29 @@ static lm_polygon* polygon(void) {
   all->loose_points = ids(2);
   all->marker = id();
   return all;
+}
+
+/* A square whose sides can be periodic; points inside. */
+static lm_status square(lm_handle* graph) {
+  static const double corners[] = {.25, .25, .75, .25, .75, .75, .25, .75};
+  static const int64_t ends[] = {0, 1, 1, 2, 3, 2, 0, 3}, markers[] = {1, 2, 3, 4};
+  lm_status status = lm_graph_new(2, graph);
+  if (status == LM_OK) status = lm_graph_add_points(*graph, 4, corners, NULL, NULL, NULL);
+  if (status == LM_OK) status = lm_graph_add_segments(*graph, 4, ends, NULL, markers, NULL);
+  if (status != LM_OK || once_in(2)) return status;
+  return lm_graph_add_points(*graph, below(5), numbers(), NULL, NULL, NULL);
+}
+
+static lm_status mesh_of_square(void) {
+  lm_handle* graph = place(GRAPH);
+  lm_options* given = options();
+  const lm_status status = square(graph);
+  if (status != LM_OK) return status;
+  if (given != NULL && once_in(2)) {
+    given->periodic = kSides;
+    given->periodic_count = sizeof kSides / sizeof *kSides / 2;
+  }
+  return lm_mesh_make(*graph, given, control(), place(MESH));
 }
 
 /* Reads what an array shows, so that a sanitizer sees it. */
@@ -270,7 +303,7 @@ static lm_status call(void) {
       return lm_graph_add_regions(handle(GRAPH), below(3), numbers(), numbers(), measures(), NULL,
                                   NULL);
     case 14:
-      status = lm_graph_array(handle(GRAPH), small(22), array);
+      status = lm_graph_array(handle(GRAPH), small(LM_GRAPH_INNER_POINTS + 2), array);
       if (status == LM_OK && array->size >= sizeof *array) seen += read_all(array);
       return status;
     case 15:
@@ -290,11 +323,12 @@ static lm_status call(void) {
       return lm_sizes_read(path(), dimension(), place(SIZES));
     case 22:
     case 23:
+      return mesh_of_square();
     case 24:
       return lm_mesh_make(handle(GRAPH), options(), control(), place(MESH));
     case 25:
     case 26:
-      status = lm_mesh_array(handle(MESH), small(19), array);
+      status = lm_mesh_array(handle(MESH), small(LM_MESH_PERIODIC_POINTS + 2), array);
       if (status == LM_OK && array->size >= sizeof *array) seen += read_all(array);
       return status;
     case 27:
@@ -375,7 +409,7 @@ static lm_status call(void) {
       if (once_in(3))
         return once_in(2) ? lm_live_mesh(handle(LIVE), place(MESH))
                           : lm_live_graph(handle(LIVE), place(GRAPH));
-      status = lm_live_array(handle(LIVE), small(12), array);
+      status = lm_live_array(handle(LIVE), small(LM_LIVE_FACET_USED + 2), array);
       if (status == LM_OK && array->size >= sizeof *array) seen += read_all(array);
       return status;
     case 50:
@@ -386,8 +420,9 @@ static lm_status call(void) {
         field = calloc((size_t)info.point_slots + 1, 2 * sizeof *field);
         if (field == NULL) return LM_OK;
         status = lm_change_transfer(
-            change, below(3), field, below((unsigned)info.point_slots + 1), field,
-            (size_t)info.point_slots - (once_in(9) && info.point_slots > 0));
+            change, below(3), field,
+            (size_t)(once_in(3) ? below((unsigned)info.point_slots + 1) : info.point_slots_before),
+            field, (size_t)info.point_slots - (once_in(9) && info.point_slots > 0));
         free(field);
         return status;
       }
@@ -540,6 +575,41 @@ static const char* callbacks_read_graphs_alone(lm_handle graph, lm_handle live) 
   return NULL;
 }
 
+static const char* sizes_cut_no_member(lm_handle graph) {
+  lm_options all = {.size = offsetof(lm_options, periodic) + 4};
+  lm_handle mesh;
+  all.periodic_count = 2;
+  all.periodic = kSides;
+  HOLDS(lm_mesh_make(graph, &all, NULL, &mesh) == LM_BAD_SIZE);
+  all.size = offsetof(lm_options, periodic);
+  HOLDS(lm_mesh_make(graph, &all, NULL, &mesh) == LM_NULL_POINTER);
+  all.size = offsetof(lm_options, periodic_count); /* the first version */
+  HOLDS(lm_mesh_make(graph, &all, NULL, &mesh) == LM_OK && lm_free(mesh) == LM_OK);
+  return NULL;
+}
+
+static const char* fields_have_a_row_for_each_slot(lm_handle live) {
+  static const double at[] = {.4, .4, .6, .4};
+  static double field[10000];
+  lm_change_info info = {.size = sizeof info};
+  lm_change_info older = {.size = offsetof(lm_change_info, point_slots_before)};
+  lm_handle change;
+  size_t before, after;
+  HOLDS(lm_live_add_points(live, 2, at, NULL, NULL, NULL) == LM_OK);
+  HOLDS(lm_live_update(live, NULL, &change) == LM_OK);
+  HOLDS(lm_change_describe(change, &info) == LM_OK);
+  before = (size_t)info.point_slots_before;
+  after = (size_t)info.point_slots;
+  HOLDS(0 < before && before < after && after <= sizeof field / sizeof *field);
+  HOLDS(lm_change_transfer(change, 1, field, before - 1, field, after) == LM_BAD_ARGUMENT);
+  HOLDS(lm_change_transfer(change, 1, field, before, field, after - 1) == LM_BAD_ARGUMENT);
+  HOLDS(lm_change_transfer(change, 1, field, before, field, after) == LM_OK);
+  HOLDS(lm_change_transfer(change, 1, field, after, field, after) == LM_OK);
+  HOLDS(lm_change_describe(change, &older) == LM_OK && older.point_slots == after);
+  HOLDS(older.point_slots_before == 0);
+  return lm_free(change) == LM_OK ? NULL : "a change is freed";
+}
+
 static const char* broken_rule(void) {
   static const double corners[] = {.25, .25, .75, .25, .5, .75, 0, 0};
   static const int64_t around[] = {0, 1, 2, 0};
@@ -552,6 +622,8 @@ static const char* broken_rule(void) {
   HOLDS(lm_live_new(2, &box, &live) == LM_OK && lm_live_add_graph(live, graph) == LM_OK);
   HOLDS(lm_live_update(live, NULL, NULL) == LM_OK);
   broken = results_are_written_on_success_alone(live);
+  if (broken == NULL) broken = sizes_cut_no_member(graph);
+  if (broken == NULL) broken = fields_have_a_row_for_each_slot(live);
   if (broken == NULL) broken = texts_stay(live);
   if (broken == NULL) broken = undo_undoes_whole_updates();
   if (broken == NULL) broken = callbacks_read_graphs_alone(graph, live);

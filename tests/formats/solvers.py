@@ -401,17 +401,57 @@ def solve_periodic_by_getdp(judge, mesher):
             judge.require("Error" in said, f"sides that do not fit together are linked: {said}")
 
 
+def potential(judge, mesh, at_one, flux, what):
+    run("getdp", "square.pro", "-msh", mesh, "-solve", "Solve", "-pos", "Tell")
+    for path, expected in (("u.txt", at_one), ("flux.txt", flux)):
+        with open(path, encoding="ascii") as said:
+            judge.near(float(said.read().split()[-1]), expected, 1e-9, f"{what}: {path}")
+
+
 def solve_by_getdp(judge, mesher):
     """u = x / 4 in the square, by its groups in a .msh of version 2.2."""
     write("square.pro", POTENTIAL)
     for order in ("1", "2"):
         run(mesher, "mesh", "square.poly", "-o", "square.msh", "--msh-version", "2.2", "--order",
             order, "--max-area", ".2", "--quiet")
-        run("getdp", "square.pro", "-msh", "square.msh", "-solve", "Solve", "-pos", "Tell")
-        judge.near(float(open("u.txt", encoding="ascii").read().split()[-1]), .25, 1e-9,
-                   f"order {order}: the potential at (1, 3)")
-        judge.near(float(open("flux.txt", encoding="ascii").read().split()[-1]), 4, 1e-9,
-                   f"order {order}: the flux")
+        potential(judge, "square.msh", .25, 4, f"order {order}")
+
+
+# A wall comes into the square, moves and bends; then the right side moves; and
+# then it is all as it was.
+EDITS = ["""begin
++point 5 1 2
++point 6 2 2.5
++point 7 3 1.5
++polyline 5 5 6 7 marker 9
+commit
+move 6 1.5 3.5
++point 8 0.5 3
+""", """begin
+move 2 5 0
+move 3 5 4
+commit
+limit area 0.05 in 2 0 5 2
+""", """begin
+-polyline 5
+-point 5
+-point 6
+-point 7
+-point 8
+commit
+move 2 4 0
+move 3 4 4
+"""]
+
+
+def solve_edited_by_getdp(judge, mesher):
+    """u is x over the width of the square in meshes that follow edits, too."""
+    write("square.pro", POTENTIAL)
+    for count, at_one in ((0, 1 / 4), (1, 1 / 4), (2, 1 / 5), (3, 1 / 4)):
+        write("edits.txt", "".join(EDITS[:count]))
+        run(mesher, "edit", "square.poly", "--script", "edits.txt", "-o", "edited.msh",
+            "--msh-version", "2.2", "--max-area", ".2", "--domain", "0", "0", "8", "8", "--quiet")
+        potential(judge, "edited.msh", at_one, 4, f"after {count} scripts of edits")
 
 
 def main():
@@ -432,6 +472,7 @@ def main():
             ("tetgen", shutil.which("tetgen"), lambda: look_at_tetgen(judge, mesher)),
             ("ccx", shutil.which("ccx"), lambda: solve_by_calculix(judge, mesher)),
             ("getdp", shutil.which("getdp"), lambda: solve_by_getdp(judge, mesher)),
+            ("getdp", shutil.which("getdp"), lambda: solve_edited_by_getdp(judge, mesher)),
             ("getdp", shutil.which("getdp"), lambda: solve_periodic_by_getdp(judge, mesher))):
         if is_there:
             look()

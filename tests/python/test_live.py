@@ -150,6 +150,38 @@ class Live(unittest.TestCase):
             np.testing.assert_array_equal(fixed, before)
             self.assertFalse(fixed.flags.writeable)
 
+    def test_transfer_of_a_field_that_does_not_fit_is_an_error(self):
+        d, p, _ = room(max_area=.05)
+        first = d.update()
+        before = len(d.points)
+        self.assertEqual((first.point_slots_before, first.point_slots), (0, before))
+        d.add_points([(.5 + .1 * i, 3) for i in range(9)])
+        change = d.update()
+        after = len(d.points)
+        self.assertEqual((change.point_slots_before, change.point_slots), (before, after))
+        self.assertGreater(after, before + 1)
+        for rows in (0, 1, before - 1, before + 1, after - 1, after + 1, 10 * after):
+            for field in (np.ones(rows), np.ones((rows, 3)), np.ones(rows, complex)):
+                with self.assertRaisesRegex(
+                        ValueError, rf"has {rows} rows; .* {before} point slots .* {after} after"):
+                    change.transfer(field)
+        self.assertRaises(ValueError, change.transfer, np.ones((2, before)))
+        self.assertRaises(ValueError, change.transfer, 7.)
+        self.assertRaises(ValueError, change.transfer, [[1.], [1., 2.]])
+        for kind in ("U3", object, "datetime64[s]", [("x", float)]):
+            self.assertRaises(TypeError, change.transfer, np.zeros(before, kind))
+        for kind in (np.float32, np.int8, bool, np.float64, complex):
+            for shape in ((before,), (before, 2), (before, 2, 3), (before, 0)):
+                u = change.transfer(np.ones(shape, kind))
+                self.assertEqual(u.shape, (after,) + shape[1:])
+                self.assertEqual(u.dtype, complex if kind is complex else float)
+                self.assertTrue((abs(u[d.point_used] - 1) < 1e-12).all())
+        with d.edit() as later:
+            d.move(p[4:], [(1, 2), (2, 2.2), (3, 2)])
+        if later.point_slots_before != before:
+            self.assertRaises(ValueError, later.transfer, np.ones(before))  # `change` is left out
+        self.assertEqual(d.undo().transfer(np.ones(later.point_slots)).shape, (len(d.points),))
+
     def test_transfer_grows_in_its_own_room(self):
         d, p, _ = room()
         u = d.update().transfer(np.zeros(0))

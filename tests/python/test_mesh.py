@@ -1,5 +1,6 @@
 """Meshes that are made once: arrays, lifetimes, inputs of all kinds, files."""
 import gc
+import importlib.util
 import os
 import tempfile
 import unittest
@@ -63,7 +64,7 @@ class Plane(unittest.TestCase):
         segments = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4)]
         m = lm.mesh(points, segments=segments, segment_markers=[7, 1, 1, 1, 2, 2, 2, 2],
                     holes=[(.5, .5)], regions=[(.1, .1, 7, 1e-3)], min_angle=28, max_area=.01,
-                    size=lambda xy: .02 + .1 * np.hypot(*xy.T), repair=True)
+                    size=lambda xy: .02 + .1 * np.hypot(*xy.T), repair=True, order=1)
         self.assertGreaterEqual(m.quality("min_angle").min(), 20)
         self.assertAlmostEqual(areas(m.points, m.cells).sum(), 1 - .01)
         self.assertLessEqual(areas(m.points, m.cells).max(), 1e-3)
@@ -72,6 +73,10 @@ class Plane(unittest.TestCase):
         inlet = m.facets_named("inlet")
         self.assertTrue((m.points[inlet][..., 1] == 0).all())
         self.assertEqual(len(m.cells_named("rock")), len(m.cells))
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "lake.msh")
+            m.write(path, version=2.2)
+            np.testing.assert_array_equal(lm.Mesh.read(path).cells, m.cells)
 
     def test_arrays_fit_together(self):
         m = lm.mesh(SQUARE, polylines=RING, polyline_markers=5, max_area=.003)
@@ -181,6 +186,32 @@ class Inputs(unittest.TestCase):
             m = lm.mesh(source, min_angle=28)
             self.assertAlmostEqual(areas(m.points, m.cells).sum(), 15)
 
+    @unittest.skipUnless(importlib.util.find_spec("shapely"), "shapely is not there")
+    def test_shapely(self):
+        from shapely import geometry
+
+        ring = geometry.Polygon([(0, 0), (4, 0), (4, 4), (0, 4)],
+                                [[(1, 1), (2, 1), (2, 2), (1, 2)]])
+        island = geometry.box(6, 0, 7, 2)
+        for source, area in ((ring, 15), (geometry.MultiPolygon([ring, island]), 17),
+                             (geometry.Point(0, 0).buffer(1, 16), None),
+                             ({"type": "FeatureCollection", "features": [
+                                 {"type": "Feature", "geometry": ring, "properties": {}},
+                                 {"type": "Feature", "geometry": island, "properties": {}}]}, 17)):
+            m = lm.mesh(source, min_angle=28)
+            area = area or source.area
+            self.assertAlmostEqual(areas(m.points, m.cells).sum(), area)
+        m = lm.mesh(ring, min_angle=28)
+        corners = {tuple(p) for r in (ring.exterior, *ring.interiors) for p in r.coords}
+        self.assertTrue(corners <= {tuple(p) for p in m.points})
+        inside = ring.buffer(1e-9)
+        self.assertTrue(all(inside.contains(geometry.Polygon(t)) for t in m.points[m.cells]))
+        line = geometry.LineString([(.5, 3), (3.5, 3)])
+        split = lm.mesh(geometry.GeometryCollection([ring, line]), min_angle=28)
+        on = split.points[split.facets]
+        on = on[(on[..., 1] == 3).all(1) & (on[..., 0] >= .5).all(1) & (on[..., 0] <= 3.5).all(1)]
+        self.assertAlmostEqual(abs(on[:, 0, 0] - on[:, 1, 0]).sum(), 3)
+
     def test_files(self):
         m = lm.mesh(os.path.join(DATA, "great_lakes.poly"), min_angle=25)
         self.assertGreater(len(m.cells), 10000)
@@ -261,11 +292,11 @@ class Inputs(unittest.TestCase):
         self.assertIs(m.name(facets={"inlet": 7}, cells={"rock": 3}), m)
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "m.msh")
-            for version in ("4.1", "2.2"):
+            for version in ("4.1", "2.2", 4.1, 2.2, np.float64(2.2), np.float32(4.1)):
                 m.write(path, version=version)
                 with open(path) as file:
                     text = file.read()
-                self.assertIn(f"\n{version} 0 8\n", text)
+                self.assertIn(f"\n{version!s} 0 8\n", text)
                 self.assertIn('1 7 "inlet"', text)
                 self.assertIn('2 3 "rock"', text)
                 again = lm.Mesh.read(path)
@@ -280,8 +311,9 @@ class Inputs(unittest.TestCase):
                 with self.assertRaises(lm.Error) as caught:
                     lm.Mesh.read(path).name(facets={wrong: 7}, cells={"rock": 3}).write(path)
                 self.assertEqual(caught.exception.code, "bad_option")
-            self.assertRaises(ValueError, m.write, path, version="3")
-            self.assertRaises(ValueError, m.write, path, version=2.2)
+            for wrong in ("3", 3, 2.1, 22, 4, None, float("nan"), "2.2 "):
+                with self.assertRaisesRegex(ValueError, "not one of 4.1, 2.2"):
+                    m.write(path, version=wrong)
             self.assertRaises(TypeError, m.name(facets={1: 7}).write, path)
             stl = os.path.join(folder, "two.stl")
             with open(stl, "w") as file:

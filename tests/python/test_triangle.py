@@ -1,5 +1,6 @@
 """livemesh.compat.triangle: what users of the package `triangle` rely on."""
 import unittest
+import warnings
 
 import numpy as np
 
@@ -38,10 +39,30 @@ class Triangle(unittest.TestCase):
                     self.assertTrue(side <= set(t["triangles"][j]))
 
     def test_area_and_angle(self):
-        t = triangulate(SQUARE, "pq30a0.01".replace("30", "29"))
+        t = triangulate(SQUARE, "pq29a0.01")
         self.assertLessEqual(areas(t).max(), .01)
         few = triangulate(SQUARE, "p")
         self.assertLess(len(few["triangles"]), len(t["triangles"]))
+
+    def test_more_degrees_than_there_are_bounds_for_are_a_warning(self):
+        bound = triangulate(SQUARE, "pq29.6a0.1")
+        for angle in ("30", "33.8", "34"):
+            with self.assertWarnsRegex(UserWarning, f"q{angle}: the bound .* 29.6 degrees") as said:
+                t = triangulate(SQUARE, f"pq{angle}a0.1")
+            self.assertEqual(said.filename, __file__)
+            np.testing.assert_array_equal(t["vertices"], bound["vertices"])
+            np.testing.assert_array_equal(t["triangles"], bound["triangles"])
+        a, b, c = (bound["vertices"][bound["triangles"][:, i]] for i in range(3))
+        for p, q, r in ((a, b, c), (b, c, a), (c, a, b)):
+            u, v = q - p, r - p
+            angles = np.degrees(np.arctan2(abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]),
+                                           (u * v).sum(1)))
+            self.assertGreaterEqual(angles.min(), 29.6 - 1e-9)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            triangulate(SQUARE, "pq29.6a0.1")
+            no_bound = triangulate(SQUARE, "pq0")
+        np.testing.assert_array_equal(no_bound["triangles"], triangulate(SQUARE, "p")["triangles"])
 
     def test_points_alone_are_meshed_to_their_hull(self):
         points = np.random.default_rng(6).uniform(0, 1, (50, 2))

@@ -62,6 +62,8 @@ class Commands(unittest.TestCase):
         self.assertEqual(self.faults_of("<!-- file: a -->\n```\n12\n```\n"
                                         "<!-- file: b from LICENSE -->\n\n"
                                         "```console\n$ cat a; head -c 3 b; echo\n12\nMIT\n```\n"), [])
+        self.assertEqual(self.faults_of("<!-- file: in/folders/a -->\n```\n12\n```\n"
+                                        "```console\n$ cat in/folders/a\n12\n```\n"), [])
 
     def test_a_block_that_needs_a_program_is_left_out_without_it(self):
         block = "```console\n$ echo a\nb\n```\n"

@@ -444,8 +444,8 @@ typedef enum lm_name_kind {
   LM_NAME_CELLS = 2   /* of a region */
 } lm_name_kind;
 
-/* The name of a group in .msh, .inp and .su2: 1 to 80 bytes without blanks and quotes
- * (mesher/names.hpp). */
+/* The name of a group in .msh, .inp and .su2, of faces in space also in .stl and .obj: 1 to 80
+ * bytes without blanks and quotes (mesher/names.hpp). */
 typedef struct lm_name {
   size_t size;
   int32_t kind; /* lm_name_kind */
@@ -616,6 +616,7 @@ typedef struct lm_change_info {
   int32_t reserved;
   uint64_t point_slots, cell_slots; /* after the update */
   uint64_t executed, reused;        /* calls of the program behind the mesh */
+  uint64_t point_slots_before;      /* before the update */
 } lm_change_info;
 
 typedef enum lm_change_field {
@@ -637,10 +638,10 @@ typedef enum lm_change_field {
 LM_API lm_status lm_change_describe(lm_handle change, lm_change_info* info);
 LM_API lm_status lm_change_array(lm_handle change, int32_t field, lm_array* array);
 /* Carries a field by point slots through the change: points that stay keep their values, new ones
- * get values interpolated in the mesh before. before: rows_before x columns; after: rows_after x
- * columns, of which the first rows_before are `before` (the same memory, or a copy that the caller
- * made) and point_slots <= rows_after. Only the rows of new points are written.
- * Cost: that of the change. */
+ * get values interpolated in the mesh before. before: rows_before x columns, with
+ * point_slots_before <= rows_before; after: rows_after x columns, of which the first rows_before
+ * are `before` (the same memory, or a copy that the caller made) and point_slots <= rows_after.
+ * Only the rows of new points are written. Cost: that of the change. */
 LM_API lm_status lm_change_transfer(lm_handle change, size_t columns, const double* before,
                                     size_t rows_before, double* after, size_t rows_after);
 

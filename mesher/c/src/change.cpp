@@ -6,8 +6,10 @@
 namespace lm {
 
 template <int D>
-ChangeIn<D>::ChangeIn(mesher::DomainUpdate<D> update, const mesher::LiveMesh<D>& live)
+ChangeIn<D>::ChangeIn(mesher::DomainUpdate<D> update, const mesher::LiveMesh<D>& live,
+                      std::size_t point_slots_before)
     : calls_(update.calls),
+      point_slots_before_(point_slots_before),
       point_slots_(live.vertex_slots()),
       cell_slots_(live.simplex_slots()),
       transfer_(update, live) {
@@ -71,26 +73,26 @@ lm_change_info ChangeIn<D>::info() const noexcept {
   all.cell_slots = cell_slots_;
   all.executed = calls_.executed;
   all.reused = calls_.reused;
+  all.point_slots_before = point_slots_before_;
   return all;
 }
+
+namespace {
+
+void require_rows(std::size_t rows, std::uint64_t slots, const char* when) {
+  if (rows >= slots) return;
+  throw Failure(LM_BAD_ARGUMENT, "the field has " + std::to_string(rows) + " rows for " +
+                                     std::to_string(slots) + " point slots " + when);
+}
+
+}  // namespace
 
 template <int D>
 void ChangeIn<D>::transfer(std::size_t columns, const double* before, std::size_t rows_before,
                            double* after, std::size_t rows_after) {
-  if (rows_after < point_slots_) {
-    throw Failure(LM_BAD_ARGUMENT, "the field has " + std::to_string(rows_after) + " rows for " +
-                                       std::to_string(point_slots_) + " slots");
-  }
-  const All& all = interpolation();
-  for (const auto& v : all) {
-    for (std::size_t i = 0; i <= D; ++i) {
-      if (v.weights[i] > 0 && v.from[i] >= rows_before) {
-        throw Failure(LM_BAD_ARGUMENT,
-                      "the field before the change has no row " + std::to_string(v.from[i]));
-      }
-    }
-  }
-  for (const auto& v : all) {
+  require_rows(rows_before, point_slots_before_, "before the update");
+  require_rows(rows_after, point_slots_, "after the update");
+  for (const auto& v : interpolation()) {
     for (std::size_t k = 0; k < columns; ++k) {
       double value = 0;
       for (std::size_t i = 0; i <= D; ++i) {

@@ -18,8 +18,9 @@ namespace lm {
 template <int D>
 class ChangeIn {
  public:
-  /// `live`: after the update.
-  ChangeIn(mesher::DomainUpdate<D> update, const mesher::LiveMesh<D>& live);
+  /// `live`: after the update; point_slots_before: how many it had before.
+  ChangeIn(mesher::DomainUpdate<D> update, const mesher::LiveMesh<D>& live,
+           std::size_t point_slots_before);
 
   /// Throws: Failure(LM_BAD_ARGUMENT).
   [[nodiscard]] lm_array array(std::int32_t field);
@@ -36,7 +37,7 @@ class ChangeIn {
   mesher::KeptSlots kept_;
   std::vector<mesher::Point<D>> added_at_, removed_at_;
   mesher::CallCounts calls_;
-  std::uint64_t point_slots_, cell_slots_;
+  std::uint64_t point_slots_before_, point_slots_, cell_slots_;
   mesher::Transfer<D> transfer_;
   std::mutex making_;
   std::optional<All> interpolation_;
@@ -44,8 +45,9 @@ class ChangeIn {
 
 struct ChangeObject final : Object {
   template <int D>
-  ChangeObject(mesher::DomainUpdate<D> update, const mesher::LiveMesh<D>& live)
-      : change(std::make_unique<ChangeIn<D>>(std::move(update), live)) {}
+  ChangeObject(mesher::DomainUpdate<D> update, const mesher::LiveMesh<D>& live,
+               std::size_t point_slots_before)
+      : change(std::make_unique<ChangeIn<D>>(std::move(update), live, point_slots_before)) {}
   std::variant<std::unique_ptr<ChangeIn<2>>, std::unique_ptr<ChangeIn<3>>> change;
 };
 

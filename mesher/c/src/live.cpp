@@ -331,13 +331,16 @@ void add_graph(LiveIn<D>& in, const GraphObject& object) {
   in.next.region = std::max(in.next.region, object.next.region);
 }
 
-// The handle of a change, if it is wanted, and 0 if there is no memory for it: the update is made.
-template <int D>
-void give_change(LiveIn<D>& in, DomainUpdate<D>&& update, lm_handle* change) {
+// Updates by run(). The handle of the change, if it is wanted, and 0 if there is no memory for it:
+// the update is made.
+template <int D, class Run>
+void give_change(LiveIn<D>& in, lm_handle* change, Run&& run) {
+  const std::size_t point_slots_before = in.mesher.live().vertex_slots();
+  DomainUpdate<D> update = run();
   if (change == nullptr) return;
   *change = 0;
   try {
-    make_object<ChangeObject>(change, std::move(update), in.mesher.live());
+    make_object<ChangeObject>(change, std::move(update), in.mesher.live(), point_slots_before);
   } catch (const std::bad_alloc&) {
   }
 }
@@ -563,7 +566,9 @@ lm_status lm_live_discard(lm_handle live) {
 
 lm_status lm_live_update(lm_handle live, const lm_control* control, lm_handle* change) {
   return guarded([&] {
-    edit(live, [&](auto& in) { give_change(in, in.update(control_of(control)), change); });
+    edit(live, [&](auto& in) {
+      give_change(in, change, [&] { return in.update(control_of(control)); });
+    });
   });
 }
 
@@ -573,7 +578,8 @@ lm_status lm_live_keep_undo(lm_handle live, size_t depth) {
 
 lm_status lm_live_undo(lm_handle live, const lm_control* control, lm_handle* change) {
   return guarded([&] {
-    edit(live, [&](auto& in) { give_change(in, in.undo(control_of(control)), change); });
+    edit(live,
+         [&](auto& in) { give_change(in, change, [&] { return in.undo(control_of(control)); }); });
   });
 }
 

@@ -18,10 +18,15 @@ template <class T>
 inline constexpr std::size_t kFirstSize = sizeof(T);
 template <>
 inline constexpr std::size_t kFirstSize<lm_options> = offsetof(lm_options, periodic_count);
+template <>
+inline constexpr std::size_t kFirstSize<lm_change_info> = offsetof(lm_change_info,
+                                                                   point_slots_before);
 
+/// A struct of any version ends at a multiple of its alignment; another size would cut a member,
+/// perhaps a pointer.
 template <class T>
 [[nodiscard]] bool is_size_of(std::size_t size) noexcept {
-  return kFirstSize<T> <= size && size <= kLargestStruct;
+  return kFirstSize<T> <= size && size <= kLargestStruct && size % alignof(T) == 0;
 }
 
 /// The struct as this library knows it; 0 where the caller's ends. What is not known must be 0.

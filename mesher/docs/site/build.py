@@ -229,7 +229,8 @@ def reference_pages(source):
           "\n```\n")
     write(source / "reference/python.md",
           "# livemesh\n\n```{eval-rst}\n.. automodule:: livemesh\n   :members:\n   :undoc-members:\n"
-          "   :imported-members:\n\n.. automodule:: livemesh.compat.triangle\n   :members:\n```\n")
+          "   :imported-members:\n\n.. automodule:: livemesh.compat.triangle\n   :members:\n\n"
+          ".. automodule:: livemesh.compat.pyvista\n   :members:\n```\n")
 
 
 def sphinx(build, source, output, version):

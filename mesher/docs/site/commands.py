@@ -71,7 +71,9 @@ class Document:
             if part["copy"]:
                 shutil.copy(self.root / part["source"], self.folder / part["copy"])
             elif part["name"]:
-                (self.folder / part["name"]).write_text(part["text"], encoding="utf-8")
+                named = self.folder / part["name"]
+                named.parent.mkdir(parents=True, exist_ok=True)
+                named.write_text(part["text"], encoding="utf-8")
         for part in parts:
             if part["row"]:
                 for command in IN_ROW.findall(part["row"]):

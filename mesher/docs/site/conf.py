@@ -22,6 +22,7 @@ cpp_id_attributes = ["SAC_NO_INLINE"]
 default_role = "code"  # of docstrings
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
+autodoc_mock_imports = ["pyvista"]
 html_static_path = ["site.css"]
 html_css_files = ["site.css"]
 pygments_style = "friendly"

@@ -199,7 +199,8 @@ enum class MeshFiles : std::uint8_t {
 /// - `.mesh` (Medit): references are regions, and markers of vertices, faces and edges, as in the
 ///   plane;
 /// - `.off` (Geomview), `.obj` (Wavefront) and `.stl`: only the boundary, as triangles that are
-///   counterclockwise seen from outside, with the vertices on it;
+///   counterclockwise seen from outside, with the vertices on it. If a marker of faces has a name
+///   (names.hpp), each marker on the boundary is a group (g) of `.obj`, a solid of `.stl`;
 /// - `.svg`: a cutaway picture, see write_svg; its coordinates are rounded.
 ///
 /// All formats are text. `files` must outlive the writer. D is 2 or 3.

@@ -118,7 +118,7 @@ class LiveInfo(Structure):
 class ChangeInfo(Structure):
     _fields_ = [("size", c_size_t), ("dimension", c_int32), ("reserved", c_int32),
                 ("point_slots", c_uint64), ("cell_slots", c_uint64), ("executed", c_uint64),
-                ("reused", c_uint64)]
+                ("reused", c_uint64), ("point_slots_before", c_uint64)]
 
 
 # Pointers to arrays are passed as addresses. h: handle, p: pointer, z: size_t, i: int32, q: int64,

@@ -53,7 +53,7 @@ class Change:
 
     def __init__(self) -> None:
         self._handle: Optional[Handle] = None
-        self._slots: Optional[int] = None
+        self._slots: Optional[Tuple[int, int]] = None  # before and after
 
     def _array(self, field: int) -> NDArray[Any]:
         if self._handle is None:
@@ -129,24 +129,45 @@ class Change:
         check(c.change_describe(self._handle.value, byref(info)))
         return info
 
+    def _point_slots(self) -> Tuple[int, int]:
+        if self._slots is None:
+            info = self._info
+            self._slots = (int(info.point_slots_before), int(info.point_slots))
+        return self._slots
+
+    @property
+    def point_slots_before(self) -> int:
+        """The length of arrays by point slot before the update."""
+        return self._point_slots()[0]
+
     @property
     def point_slots(self) -> int:
         """The length of arrays by point slot after the update."""
-        if self._slots is None:
-            self._slots = int(self._info.point_slots)
-        return self._slots
+        return self._point_slots()[1]
 
     def transfer(self, u: Any) -> NDArray[Any]:
-        """Carries a field by point slots, n or n x k (float64 or complex128), through the change:
-        points that stay keep their values, new ones get values interpolated in the mesh before.
+        """Carries a field by point slots through the change: points that stay keep their values,
+        new ones get values interpolated in the mesh before. u: n or n x k numbers (made float64,
+        or complex128), where n is point_slots_before; or point_slots, of which the rows of new
+        points are written.
 
         Costs what changed: `u` is changed in place and returned if it is writeable and has room,
         else a larger array is returned, with room for more, so write `u = c.transfer(u)`.
+
+        Raises: ValueError for another n, so that no change of a sequence is left out unnoticed.
         """
-        before = np.ascontiguousarray(u)
+        slots_before, slots = self._point_slots()
+        before = np.asarray(u)
+        if before.dtype.kind not in "biufc":
+            raise TypeError(f"a field has numbers, not {before.dtype}")
+        if before.ndim == 0:
+            raise ValueError("a field has a row for each point slot; this is a single number")
+        rows = len(before)
+        if rows not in (slots_before, slots):
+            raise ValueError(f"the field has {rows} rows; there were {slots_before} point slots "
+                             f"before the update, and are {slots} after it")
         kind = np.complex128 if before.dtype.kind == "c" else np.float64
         before = np.ascontiguousarray(before, dtype=kind)
-        rows, slots = len(before), self.point_slots
         after = _with_rows(before, slots)
         columns = math.prod(after.shape[1:]) * (2 if kind is np.complex128 else 1)
         assert self._handle is not None

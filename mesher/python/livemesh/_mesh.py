@@ -80,12 +80,15 @@ class Mesh:
             number = _plain(name.region) if kind == "cells" else name.marker
             self.names[kind][name.name.decode(errors="replace")] = number
 
-    def write(self, path: Union[str, "os.PathLike[str]"], version: str = "4.1") -> None:
+    def write(self, path: Union[str, "os.PathLike[str]"],
+              version: Union[str, float] = "4.1") -> None:
         """Writes .node (with .ele and others beside it), .vtu, .vtk, .msh, .inp (Abaqus, CalculiX),
         .su2, .mesh, .off, .obj, .svg, in space also .stl: whole, or not at all. Names of groups go
-        to .msh, .inp and .su2; of several names of a number, the last. A mesh of second order goes
-        to .msh, .inp, .vtu, .vtk and .node. version: of .msh, "4.1" or "2.2"."""
-        if version not in _MSH_VERSIONS:
+        to .msh, .inp and .su2, those of faces in space to .stl and .obj; of several names of a
+        number, the last. A mesh of second order goes to .msh, .inp, .vtu, .vtk and .node. version:
+        of .msh, 4.1 or 2.2, a number or text."""
+        msh_version = _MSH_VERSIONS.get(str(version))
+        if msh_version is None:
             raise ValueError(f"version is {version!r}, not one of {', '.join(_MSH_VERSIONS)}")
         names = [(kind, {number: name for name, number in self.names[kind_name].items()})
                  for kind, kind_name in enumerate(_NAMED)]
@@ -93,8 +96,8 @@ class Mesh:
                         float(number) if kind == 2 else 0., _c.text_of(name))
                 for kind, by_number in names for number, name in by_number.items()]
         array = (_c.Name * len(rows))(*rows)
-        options = _c.WriteOptions(ctypes.sizeof(_c.WriteOptions), _MSH_VERSIONS[version], 1,
-                                  len(rows), ctypes.addressof(array))
+        options = _c.WriteOptions(ctypes.sizeof(_c.WriteOptions), msh_version, 1, len(rows),
+                                  ctypes.addressof(array))
         check(c.mesh_write_as(self._handle.value, path_of(path), byref(options)), self.dimension)
 
     def second_order(self) -> "Mesh":

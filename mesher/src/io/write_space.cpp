@@ -14,10 +14,6 @@ namespace {
 using How = WriteHow<3>;
 using Write = void (*)(const Mesh<3>&, const MeshFeatures&, const How&, TextFile&);
 
-template <auto kWrite>
-void write_boundary(const Mesh<3>& mesh, const MeshFeatures&, const How&, TextFile& file) {
-  kWrite(mesh, file);
-}
 template <void (*kWrite)(const Mesh<3>&, const MeshFeatures&, TextFile&)>
 void write_first_order(const Mesh<3>& mesh, const MeshFeatures& features, const How&,
                        TextFile& file) {
@@ -31,9 +27,10 @@ constexpr std::pair<std::string_view, Write> kSingleFiles[] = {
     {".inp", write_inp<3>},
     {".su2", write_first_order<write_su2<3>>},
     {".mesh", write_first_order<write_medit<3>>},
-    {".off", write_boundary<write_surface_off>},
-    {".obj", write_boundary<write_surface_obj>},
-    {".stl", write_boundary<write_surface_stl>},
+    {".off", [](const Mesh<3>& mesh, const MeshFeatures&, const How&,
+                TextFile& file) { write_surface_off(mesh, file); }},
+    {".obj", write_first_order<write_surface_obj>},
+    {".stl", write_first_order<write_surface_stl>},
     {".svg", [](const Mesh<3>& mesh, const MeshFeatures& features, const How&, TextFile& file) {
        write_svg(mesh, features, svg_view(mesh), file);
      }}};

@@ -238,6 +238,63 @@ TEST_CASE("solids of .stl and groups of .obj are markers with names, if there ar
   CHECK(obj.graph.names.facets == Markers{{2, "side"}, {3, "top"}});
 }
 
+TEST_CASE("in space names of polygons are those of solids of .stl and of groups of .obj") {
+  // A box cut in two: marker 9 is between the parts, and not on the boundary.
+  Graph<3> graph;
+  std::int64_t id = 0;
+  for (const double x : {0.0, 1.0, 2.0}) {
+    for (const double y : {0.0, 1.0}) {
+      for (const double z : {0.0, 1.0}) graph.points.push_back({PointId{++id}, {x, y, z}});
+    }
+  }
+  const std::vector<std::vector<std::int64_t>> loops = {
+      {1, 2, 4, 3},   {9, 10, 12, 11}, {5, 6, 8, 7},  {1, 5, 7, 3}, {5, 9, 11, 7}, {2, 6, 8, 4},
+      {6, 10, 12, 8}, {1, 2, 6, 5},    {5, 6, 10, 9}, {3, 4, 8, 7}, {7, 8, 12, 11}};
+  const std::int64_t markers[] = {5, 6, 9, 1, 1, 1, 1, 2, 2, 2, 2};
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    mesher::Polygon polygon{mesher::PolygonId{static_cast<std::int64_t>(i + 1)}};
+    polygon.loops.emplace_back();
+    for (const std::int64_t point : loops[i]) polygon.loops[0].push_back(PointId{point});
+    polygon.marker = markers[i];
+    graph.polygons.push_back(std::move(polygon));
+  }
+  const auto plain = mesher::mesh(graph).mesh;
+  graph.names.facets = {{5, "inlet"}, {6, "Süd"}, {9, "between"}};
+  const auto mesh = mesher::mesh(graph).mesh;
+  const ScratchFolder folder;
+  const auto text_of = [&](const auto& data, const std::string& name) {
+    mesher::write_mesh(data, folder.path(name));
+    return folder.read(name);
+  };
+  const std::string stl = text_of(mesh, "m.stl"), obj = text_of(mesh, "m.obj");
+  for (const char* name : {"marker_1", "marker_2", "inlet", "Süd"}) {
+    INFO(name);
+    CHECK(has_line(stl, std::string("solid ") + name));
+    CHECK(has_line(stl, std::string("endsolid ") + name));
+    CHECK(has_line(obj, std::string("g ") + name));
+  }
+  CHECK((stl + obj).find("between") == std::string::npos);
+  for (const char* name : {"m.stl", "m.obj"}) {
+    INFO(name);
+    const auto back = mesher::read<3>(folder.path(name));
+    CHECK(back.graph.names.facets == Markers{{3, "inlet"}, {4, "Süd"}});
+    std::size_t boundary = 0;
+    for (const auto& face : mesh.features.faces) boundary += face.marker != 9 ? 1 : 0;
+    CHECK(back.graph.polygons.size() == boundary);
+    std::map<PointId, double> x;
+    for (const auto& point : back.graph.points) x[point.id] = point.at[0];
+    for (const auto& polygon : back.graph.polygons) {
+      if (polygon.marker < 3) continue;
+      for (const PointId corner : polygon.loops[0]) CHECK(x[corner] == (polygon.marker - 3) * 2);
+    }
+  }
+  // Without names there are no groups, and the same faces.
+  const std::string bare = text_of(plain, "p.obj");
+  CHECK(bare.find("\ng ") == std::string::npos);
+  CHECK(text_of(plain, "p.stl").rfind("solid mesh\n", 0) == 0);
+  CHECK(text_of(mesh, "m.off") == text_of(plain, "p.off"));
+}
+
 TEST_CASE("names of GeoJSON are those of regions of polygons and of markers of lines") {
   const ScratchFolder folder;
   const auto feature = [](const std::string& properties, const std::string& type,

@@ -2,11 +2,13 @@
 
 The vertices of the input come first, in their order, as Triangle has them; the mesh is another one.
 Departures: without "q", triangles may be very thin but there may be new vertices; vertices without
-segments, and "c", are meshed to their convex hull. Boundary edges have the marker 1, as in
-Triangle. """
+segments, and "c", are meshed to their convex hull; the bound on angles is at most 29.6 degrees,
+which "q30" gets with a warning. Boundary edges have the marker 1, as in Triangle.
+"""
 from __future__ import annotations
 
 import re
+import warnings
 from collections.abc import Mapping
 from typing import Any, Dict, Optional, Tuple
 
@@ -19,6 +21,7 @@ from .._mesh import Mesh, mesh
 
 _SWITCHES = re.compile(r"p|q(\d*\.?\d*)|a(\d*\.?\d*)|A|e|n|c|z|Q|D|i|j")
 _LOOSE_RHO = 100.0  # no bound to speak of
+_LARGEST_ANGLE = 29.6  # degrees: the largest bound with which meshes are known to end
 
 
 def _parse(opts: str) -> Dict[str, str]:
@@ -61,13 +64,25 @@ def _renumbered(m: Mesh, count: int) -> NDArray[Any]:
     return number
 
 
+def _min_angle(text: str) -> Optional[float]:
+    """Of q with this number. Triangle takes more degrees than we do, and may then not end."""
+    angle = float(text or 20)
+    if angle > _LARGEST_ANGLE:
+        warnings.warn(f"q{text}: the bound on angles is {_LARGEST_ANGLE} degrees, the largest that "
+                      "livemesh takes; angles may be below what was asked for", stacklevel=3)
+        return _LARGEST_ANGLE
+    return angle or None
+
+
 def triangulate(tri: Mapping[str, Any], opts: str = "") -> Dict[str, NDArray[Any]]:
     """tri: "vertices" n x 2, and perhaps "segments" s x 2, "holes" h x 2, "regions" r x 4 (x, y,
     attribute, area), "vertex_markers", "segment_markers".
 
-    opts: p (segments count), q or q28 (smallest angle, 20 by default), a0.1 (largest area), a (that
-    of regions), A (attributes of regions), c (the convex hull is meshed), e (edges), n (neighbors).
-    z, Q, D, i, j say what is the case anyway.
+    opts: p (segments count), q or q28 (smallest angle, 20 by default, 29.6 at most), a0.1 (largest
+    area), a (that of regions), A (attributes of regions), c (the convex hull is meshed), e (edges),
+    n (neighbors). z, Q, D, i, j say what is the case anyway.
+
+    Warns: UserWarning, if q asks for more than 29.6 degrees; the bound is then 29.6.
 
     Returns a dict with "vertices", "triangles", "vertex_markers", and what the switches ask for.
 
@@ -97,7 +112,7 @@ def triangulate(tri: Mapping[str, Any], opts: str = "") -> Dict[str, NDArray[Any
                   else np.asarray(vertex_markers, dtype=np.int64).reshape(-1))
     if "p" not in switches or "c" in switches:
         graph = graph.repaired()  # sides of the hull may overlap segments, or pass by points
-    angle = float(switches["q"] or 20) if "q" in switches else None
+    angle = _min_angle(switches["q"]) if "q" in switches else None
     area: Optional[float] = float(switches["a"]) if switches.get("a") else None
     m = mesh(graph, min_angle=angle, rho=None if angle else _LOOSE_RHO, max_area=area,
              region_limits=switches.get("a") == "")
