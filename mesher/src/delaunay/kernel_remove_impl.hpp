@@ -117,7 +117,9 @@ auto DelaunayKernel<D, Layout>::ghosts_for(const std::vector<std::uint32_t>& sta
 
 template <int D, class Layout>
 bool DelaunayKernel<D, Layout>::remove(std::uint32_t v) {
-  const std::vector<std::uint32_t> around = star(v), link = link_of(around, v);
+  std::vector<std::uint32_t> around;
+  static_cast<void>(find_in_star(v, around, [](std::uint32_t) { return false; }));
+  const std::vector<std::uint32_t> link = link_of(around, v);
   const bool inner =
       std::none_of(around.begin(), around.end(), [&](std::uint32_t s) { return is_ghost(s); });
   if (inner && link.size() <= kFew) {

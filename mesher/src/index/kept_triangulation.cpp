@@ -56,12 +56,15 @@ KeptTriangulation<D>::KeptTriangulation(const VertexPool<D>& pool,
 // are far apart: else stars would grow.
 template <int D>
 void KeptTriangulation<D>::change(const VertexPool<D>& pool, std::vector<VertexHandle> come,
-                                  std::vector<VertexHandle> gone, VertexHandle near) {
+                                  std::vector<VertexHandle> gone, const Near& near) {
   if (gone.size() * kManyGo > pool.size()) return make_anew(pool, come, gone);
   put_in_spatial_order(pool, come);
   put_in_spatial_order(pool, gone);
-  if (near != 0) kernel_.walk_from(near);
-  for (const VertexHandle v : come) insert(pool[v]);
+  VertexHandle last = 0;
+  for (const VertexHandle v : come) {
+    insert(pool[v], near(v, last));
+    last = v;
+  }
   for (auto v = gone.rbegin(); v != gone.rend(); ++v) remove(*v);
 }
 
@@ -86,10 +89,10 @@ void KeptTriangulation<D>::make_anew(const VertexPool<D>& pool,
 }
 
 template <int D>
-void KeptTriangulation<D>::insert(const Vertex<D>& v) {
+void KeptTriangulation<D>::insert(const Vertex<D>& v, VertexHandle near) {
   while (kernel_.places() < v.self) static_cast<void>(kernel_.add_place(v.p));
   kernel_.set_place(v.self, v.p);
-  const std::uint32_t s = kernel_.walk(v.p, kernel_.simplex_at(kernel_.last_changed()));
+  const std::uint32_t s = kernel_.walk(v.p, kernel_.simplex_at(near));
   const auto is_elsewhere = [&](std::uint32_t w) { return kernel_.place(w) != v.p; };
   const auto& corners = kernel_.simplices().corners(s);
   SAC_EXPECTS(std::all_of(corners.begin(), corners.end(), is_elsewhere));
@@ -112,7 +115,8 @@ void KeptTriangulation<D>::insert(const Vertex<D>& v) {
 
 template <int D>
 void KeptTriangulation<D>::remove(VertexHandle v) {
-  for (const std::uint32_t s : kernel_.star(v)) note(s, gone_);
+  static_cast<void>(kernel_.find_in_star(v, star_, [](std::uint32_t) { return false; }));
+  for (const std::uint32_t s : star_) note(s, gone_);
   const bool removed = kernel_.remove(v);
   SAC_ENSURES(removed);
   static_cast<void>(removed);

@@ -16,6 +16,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "delaunay/facets.hpp"
@@ -38,11 +39,12 @@ class KeptTriangulation {
   [[nodiscard]] bool has(VertexHandle v) const noexcept {
     return v <= kernel_.places() && kernel_.has(v);
   }
-  /// Takes in those that come, and takes out those that go. `near`: a vertex that is near to one of
-  /// those that come, or 0. What throws has done a part of it, and news() is wrong.
-  /// Cost: O(simplices made and taken out); of all, if many go.
+  /// Takes in those that come, and takes out those that go. near(v, last): a vertex from which it
+  /// is not far to v; `last` has come before it (0: none has). What throws has done a part of it,
+  /// and news() is wrong. Cost: O(simplices made and taken out); of all, if many go.
+  using Near = std::function<VertexHandle(VertexHandle v, VertexHandle last)>;
   void change(const VertexPool<D>& pool, std::vector<VertexHandle> come,
-              std::vector<VertexHandle> gone, VertexHandle near);
+              std::vector<VertexHandle> gone, const Near& near);
 
   struct News {
     std::vector<Simplex> gone, come;  // ascending
@@ -71,12 +73,13 @@ class KeptTriangulation {
 
   void make_anew(const VertexPool<D>& pool, const std::vector<VertexHandle>& come,
                  const std::vector<VertexHandle>& gone);
-  void insert(const Vertex<D>& v);
+  void insert(const Vertex<D>& v, VertexHandle near);
   void remove(VertexHandle v);
   void note(std::uint32_t s, std::vector<Simplex>& all) const;
 
   Kernel kernel_;
   std::vector<Simplex> gone_, come_;  // since the last commit; some may have done both
+  std::vector<std::uint32_t> star_;   // of a vertex that goes
 };
 
 template <int D>

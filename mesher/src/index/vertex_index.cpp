@@ -571,13 +571,14 @@ void VertexIndex<sac::Scope, D>::follow() {
       const Vertex<D>& v = pool_[h];
       if (v.alive != kept_->has(h)) (v.alive ? come : gone).push_back(h);
     }
-    VertexHandle near = 0;
-    if (!come.empty()) {
-      const auto is_there = [&](VertexHandle u) { return kept_->has(u); };
-      near = nearest_around(pool_[come.front()], is_there).handle;
-      static_cast<void>(take_visited());
-    }
+    const auto near = [&](VertexHandle v, VertexHandle last) {
+      const double few = kFewLeaves * tree_.side_at(pool_[v].p);
+      const bool is_beside = last != 0 && squared_distance(pool_[last].p, pool_[v].p) <= few * few;
+      if (is_beside) return last;
+      return nearest_around(pool_[v], [&](VertexHandle u) { return kept_->has(u); }).handle;
+    };
     kept_->change(pool_, std::move(come), std::move(gone), near);
+    static_cast<void>(take_visited());
   }
 }
 

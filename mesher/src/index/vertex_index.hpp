@@ -348,6 +348,9 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   static constexpr std::uint8_t kBirthOnSegment = 4;
   static constexpr std::uint8_t kTrial = Observers<D>::kTrial;
 
+  // A walk over the triangulation takes less than a search up to about this far, in leaves.
+  static constexpr double kFewLeaves = 8;
+
   struct BirthEdge : sac::ProducerEdge {
     VertexHandle vertex;
   };

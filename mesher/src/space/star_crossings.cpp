@@ -24,11 +24,7 @@ constexpr double kRoomForCopy = 0.25;
 
 StarCrossings::StarCrossings(VoronoiCell3& cell, const VertexPool<3>& pool,
                              const FeaturesBeside& near)
-    : cell_(cell),
-      pool_(pool),
-      near_(near),
-      roles_(index(cell.size())),
-      balls_(index(cell.corners())) {
+    : cell_(cell), pool_(pool), near_(near), roles_(index(cell.size())) {
   const Point<3>& v = cell.center().p;
   box_ = {v, v};
   double reach2 = 0;
@@ -55,33 +51,31 @@ StarCrossings::StarCrossings(VoronoiCell3& cell, const VertexPool<3>& pool,
       if (rank_[index(p)] < rank_[index(q)]) link_.push_back({p, q});  // it is seen from both sides
     }
     if (std::none_of(ends.begin(), ends.end(), [&](int i) { return cell.real(i); })) continue;
-    balls_.add(plus(v, cell.corner(t)), std::sqrt(cell.corner2(t)) * (1 + 0x1p-10) + rounding_);
+    balls_.push_back(
+        {plus(v, cell.corner(t)), std::sqrt(cell.corner2(t)) * (1 + 0x1p-10) + rounding_});
   }
 }
 
-bool StarCrossings::meets_box(const Point<3>& middle, double radius) const noexcept {
+/// Whether a ball meets the star's box, and a ball of a simplex.
+bool StarCrossings::meets(const Point<3>& middle, double radius) const noexcept {
   double away2 = 0;
   for (int k = 0; k < 3; ++k) {
     const double away = std::max({box_.lo[k] - middle[k], middle[k] - box_.hi[k], 0.0});
     away2 += away * away;
   }
   const double most = radius + rounding_;
-  return away2 <= most * most;
-}
-
-/// Whether a ball meets the star's box, and a ball of a simplex.
-bool StarCrossings::meets(const Point<3>& middle, double radius) const noexcept {
-  return meets_box(middle, radius) && balls_.meets(middle, radius);
+  if (away2 > most * most) return false;
+  return std::any_of(balls_.begin(), balls_.end(), [&](const Ball& ball) {
+    const double within = ball.radius + radius;
+    return squared_distance(middle, ball.centre) <= within * within;
+  });
 }
 
 /// The edges, or polygons, that may meet the star; in no order, some repeatedly.
 template <class F>
 std::vector<const F*> StarCrossings::find() const {
   FoundFeatures<F> found;
-  // What is as large as the star and meets its box is hardly ever clear of all balls.
-  const auto is_outside = [&](const Point<3>& x, double radius) {
-    return !meets_box(x, radius) || (radius < reach_ && !balls_.meets(x, radius));
-  };
+  const auto is_outside = [&](const Point<3>& x, double radius) { return !meets(x, radius); };
   const auto take = [&](const F& f) noexcept { return found.take(f); };
   if constexpr (std::is_same_v<F, Edge>) {
     near_.store().visit_edges_in(cell_.center().p, reach_ + rounding_, is_outside, take);

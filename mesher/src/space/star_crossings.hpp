@@ -31,7 +31,6 @@
 #include <vector>
 
 #include "cells/voronoi_cell3.hpp"
-#include "geometry/ball_list.hpp"
 #include "space/dyadic.hpp"
 #include "space/feature_search.hpp"
 #include "space/placed.hpp"
@@ -92,7 +91,6 @@ class StarCrossings {
     return {vertex(i), i == kSelf ? self_ : roles_[index(i)]};
   }
   [[nodiscard]] double nearest2(const Point<3>& x) const;
-  [[nodiscard]] bool meets_box(const Point<3>& middle, double radius) const noexcept;
   [[nodiscard]] bool meets(const Point<3>& middle, double radius) const noexcept;
   template <class F>
   [[nodiscard]] std::vector<const F*> find() const;
@@ -137,7 +135,11 @@ class StarCrossings {
   double reach_ = 0;     // how far the star reaches from v
   double rounding_ = 0;  // of a length in it
   Box<3> box_{};         // of the star
-  BallList balls_;       // of its simplices
+  struct Ball {
+    Point<3> centre;
+    double radius;
+  };
+  std::vector<Ball> balls_;  // of its simplices
   // Scratch, of one feature.
   std::vector<double> height_;  // of neighbours; 0: on the polygon, or in its plane
   double self_height_ = 0;

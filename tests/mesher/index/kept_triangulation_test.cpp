@@ -146,7 +146,9 @@ void change_at_random(Kind kind, std::size_t n, std::uint64_t seed) {
       if (v != 0) come.push_back(v);
     }
     released.insert(released.end(), gone.begin(), gone.end());
-    const VertexHandle near = random.below(2) == 0 ? 0 : vertices.live().front();
+    const auto near = [&](VertexHandle, VertexHandle last) {
+      return last != 0 && random.below(2) == 0 ? last : vertices.live().front();
+    };
     kept.change(vertices.pool(), come, gone, near);
     require_right(kept, vertices);
     require_news(kept, vertices, before);
@@ -180,8 +182,9 @@ TEMPLATE_TEST_CASE_SIG("what fails to change is changed when it is asked again",
     while (come.size() < 3) {
       if (const VertexHandle v = vertices.come(random)) come.push_back(v);
     }
+    const auto at_corner = [&](VertexHandle, VertexHandle) { return vertices.live().front(); };
     bool burnt = false;
-    if (!support::fails(k, burnt, [&] { kept.change(vertices.pool(), come, gone, 0); })) {
+    if (!support::fails(k, burnt, [&] { kept.change(vertices.pool(), come, gone, at_corner); })) {
       if (!burnt) break;  // there were not so many
     }
     kept.check_invariants();
@@ -190,7 +193,7 @@ TEMPLATE_TEST_CASE_SIG("what fails to change is changed when it is asked again",
     };
     come.erase(std::remove_if(come.begin(), come.end(), done(true)), come.end());
     gone.erase(std::remove_if(gone.begin(), gone.end(), done(false)), gone.end());
-    kept.change(vertices.pool(), come, gone, 0);
+    kept.change(vertices.pool(), come, gone, at_corner);
     require_right(kept, vertices);
   }
 }
