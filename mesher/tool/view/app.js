@@ -162,7 +162,7 @@ function receive(head, arrays, bytes) {
 
 function load(head, arrays) {
   const first = mesh === null;
-  mesh = new Mesh(head, arrays);
+  mesh = new Mesh(head, arrays, settings.judge);
   document.body.classList.toggle('in_space', is_space());
   if (first) {
     view = is_space() ? new Space(scene, settings) : new Plane(scene, settings);
@@ -190,37 +190,52 @@ function load(head, arrays) {
   $('fresh').disabled = false;
   view.load(mesh);
   $('fresh_result').textContent = '';
+  last_update = last_fresh = null;
+  rows('update', []);
 }
 
 // --- Panels --------------------------------------------------------------------------------------
 
 function rows(id, list) {
   $(id).innerHTML = '';
-  for (const [name, value] of list) {
+  for (const cells of list) {
     const row = $(id).insertRow();
-    row.insertCell().textContent = name;
-    row.insertCell().textContent = value;
+    for (const cell of cells) row.insertCell().textContent = cell;
   }
 }
 
 function show_update(head, bytes) {
   $('edit').textContent = head.edit;
-  const what = is_space() ? 'tetrahedra' : 'triangles';
-  last_seconds = head.seconds;
-  rows('update', [['engine', shown(head.seconds * 1000) + ' ms'],
-    [what + ' that came, went', `${head.came}, ${head.went}`],
-    ['vertices', `${head.vertices_came}, ${head.vertices_went}`],
-    ['calls that ran, were reused', `${head.executed}, ${head.reused}`],
-    ['message', bytes + ' bytes']]);
+  last_update = {...head, bytes};
+  show_figures();
 }
 
-let last_seconds = 0;
+// What the last update did, and beside it what a fresh run has to do.
+let last_update = null, last_fresh = null;
+function show_figures() {
+  const u = last_update, f = last_fresh, list = [];
+  const row = (name, updated, run) => list.push(f ? [name, u ? updated(u) : '', run(f)]
+    : [name, updated(u)]);
+  const time = (head) => shown(head.seconds * 1000) + ' ms';
+  if (f) list.push(['', u ? 'update' : '', f.revision === state.revision ? 'fresh run'
+    : 'earlier run']);
+  row('time', time, time);
+  row((is_space() ? 'tetrahedra' : 'triangles') + ' that came, went', () => `${u.came}, ${u.went}`,
+    () => `${f.simplices}, 0`);
+  row('vertices', () => `${u.vertices_came}, ${u.vertices_went}`, () => `${f.vertices}, 0`);
+  row('calls that ran, were reused', () => `${u.executed}, ${u.reused}`, () => `${f.calls}, 0`);
+  if (u) row('message', () => u.bytes + ' bytes', () => '');
+  rows('update', list);
+}
+
 function show_fresh(head) {
   $('fresh').disabled = false;
-  const ratio = last_seconds > 0 ? `, ${shown(head.seconds / last_seconds, 2)} times the last update`
+  last_fresh = head;
+  const ratio = last_update ? `${shown(head.seconds / last_update.seconds, 2)} times the last update; `
     : '';
-  $('fresh_result').textContent = `${shown(head.seconds * 1000)} ms${ratio}; ` +
+  $('fresh_result').textContent = ratio +
     (head.same ? 'the same mesh' : 'another mesh: please report this');
+  show_figures();
 }
 
 function report(head) {
@@ -368,6 +383,14 @@ function draw_histogram() {
     settings.below;
 }
 
+// What the colours at the ends of the legend mean.
+function text_of_scale() {
+  if (settings.mode === 'quality') return `from 0 to ${is_space() ? 70 : 60} degrees`;
+  if (settings.mode !== 'size') return '';
+  const [low, high] = mesh.sizes().map((octave) => shown(2 ** octave, 2));
+  return `${is_space() ? 'volume' : 'area'} from ${low} to ${high}`;
+}
+
 let panel_at = 0;
 function draw_panel(now) {
   if (!panel_stale || now - panel_at < 120) return panel_stale;
@@ -381,6 +404,9 @@ function draw_panel(now) {
   $('journal').textContent = `${state.updates} update${state.updates === 1 ? '' : 's'} in ` +
     state.journal;
   $('legend').style.background = LEGENDS[settings.mode];
+  $('scale').textContent = text_of_scale();
+  const marks = settings.poor || settings.forced || settings.slivers;
+  $('marked').textContent = marks ? mesh.marked + ' marked' : '';
   if ($('snap').checked && !is_space()) $('grid').textContent = 'of ' + shown(grid());
   draw_histogram();
   show_calls();
@@ -742,13 +768,7 @@ window.addEventListener('resize', () => wake());
 function recolour() {
   if (!view || !mesh) return;
   view.recolour();
-  let marked = 0;
-  if (settings.poor || settings.forced || settings.slivers) {
-    for (let s = 0; s < mesh.slots; ++s) if (settings.judge(mesh, s) !== 0) ++marked;
-    $('marked').textContent = marked + ' marked';
-  } else {
-    $('marked').textContent = '';
-  }
+  mesh.count_marked();
   panel_stale = true;
   wake();
 }

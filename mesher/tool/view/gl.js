@@ -34,10 +34,33 @@ float line_at(vec3 side, float from, float to, float least) {
   return line * clamp(1. / max(steps.x, max(steps.y, steps.z)) / 8., least, 1.);
 }`;
 
-// `judged`: quality, size and region as bytes, and marks (bits: 1 poor, 2 forced or sliver).
-// `mode`: 0 region, 1 quality, 2 size.
+// A size as 14 bits: its octaves below the box around the mesh, in parts of 1/256. It does not depend
+// on the sizes that there are, which change; the scale of colours does.
+const kSizeOctaves = 64, kSizeSteps = 256;
+function size_code(mesh, measure) {
+  const code = Math.round((measure - mesh.box_measure + kSizeOctaves) * kSizeSteps);
+  return Math.min(kSizeOctaves * kSizeSteps - 1, Math.max(0, code));
+}
+
+// Puts what `colour` reads, for a slot, at four bytes. `best`: the best angle.
+export function put_judged(octets, at, mesh, s, marks, best) {
+  const size = size_code(mesh, mesh.measure[s]);
+  octets[at] = Math.min(255, mesh.angle[s] * 255 / best);
+  octets[at + 1] = size >> 6;
+  octets[at + 2] = mesh.labels[s];
+  octets[at + 3] = marks | (size & 63) << 2;
+}
+
+const MODES = ['region', 'quality', 'size'];
+export function set_colours(gl, at, mesh, mode) {
+  gl.uniform1i(at.mode, MODES.indexOf(mode));
+  gl.uniform2fv(at.sizes, mesh.sizes().map((size) => size_code(mesh, size)));
+}
+
+// `judged`: quality; the high 8 bits of the size; the region; marks (bits: 1 poor, 2 forced or
+// sliver) and above them the low 6 bits of the size. `sizes`: the scale of sizes.
 export const COLOUR = `
-uniform int mode;
+uniform int mode; uniform vec2 sizes;
 vec3 ramp(float t) {
   vec3 low = vec3(.80, .16, .12), middle = vec3(.97, .84, .45), high = vec3(.80, .90, .93);
   return t < .5 ? mix(low, middle, t * 2.) : mix(middle, high, t * 2. - 1.);
@@ -54,11 +77,13 @@ vec3 region(float label) {
   return mix(vec3(1.), c, .30) * .97;
 }
 vec3 colour(vec4 judged) {
-  int marks = int(judged.w + .5);
+  int marks = int(judged.w + .5) & 3;
+  float size = judged.y * 64. + float(int(judged.w + .5) >> 2);
   if ((marks & 2) != 0) return vec3(.78, .10, .50);
   if ((marks & 1) != 0) return vec3(.90, .25, .15);
   if (mode == 1) return judged.z < .5 ? region(0.) : ramp(judged.x / 255.);
-  if (mode == 2) return judged.z < .5 ? region(0.) : depth(judged.y / 255.);
+  float in_scale = clamp((size - sizes.x) / max(sizes.y - sizes.x, 1.), 0., 1.);
+  if (mode == 2) return judged.z < .5 ? region(0.) : depth(in_scale);
   return region(judged.z);
 }
 `;

@@ -3,6 +3,7 @@
 const DEGREES = 180 / Math.PI;
 export const FREE = 255;  // the label of a free slot
 const NONE = 0xffffffff;
+const kOctaves = 1024, kFirstOctave = -640;  // of areas and volumes that coordinates allow
 
 // An array that has at least `size` items, with what it had.
 function grown(array, size) {
@@ -13,12 +14,15 @@ function grown(array, size) {
 }
 
 export class Mesh {
-  constructor(head, arrays) {
+  // marks: called with this and a slot; 0 if it is not marked.
+  constructor(head, arrays, marks) {
+    this.marks = marks;
     this.dimension = head.dimension;
     this.corners = head.dimension + 1;
     this.rho = head.rho;
     this.lo = head.lo;
     this.hi = head.hi;
+    this.box_measure = this.lo.reduce((sum, low, i) => sum + Math.log2(this.hi[i] - low), 0);  // log2
     this.places = arrays.places.slice();
     this.simplices = arrays.simplices.slice();
     this.labels = arrays.labels.slice();
@@ -34,30 +38,39 @@ export class Mesh {
     this.angle = new Float32Array(this.slots);  // the smallest, in degrees; in space dihedral
     this.ratio = new Float32Array(this.slots);  // circumradius over shortest edge
     this.measure = new Float32Array(this.slots);  // log2 of area or volume
-    this.bins = new Uint32Array(this.dimension === 2 ? 60 : 72);
+    // Of what is kept:
+    this.bins = new Uint32Array(this.dimension === 2 ? 60 : 72);  // by degrees of `angle`
+    this.octaves = new Uint32Array(kOctaves);  // by whole numbers of `measure`
+    this.marked = 0;
     this.points = new Map();  // of the input: id -> place
     this.take_points(arrays);
-    let low = Infinity, high = -Infinity;
     for (let s = 0; s < this.slots; ++s) {
       if (this.labels[s] === FREE) continue;
       this.judge(s);
-      if (this.labels[s] === 0) continue;
-      this.count(s, 1);
-      low = Math.min(low, this.measure[s]);
-      high = Math.max(high, this.measure[s]);
+      if (this.labels[s] !== 0) this.count(s, 1);
     }
-    this.sizes = [low, Math.max(high, low + 1)];
   }
 
   is_live(s) { return s < this.slots && this.labels[s] !== FREE; }
   is_kept(s) { return this.labels[s] !== 0 && this.labels[s] !== FREE; }
   is_forced(s) { return this.ratio[s] > this.rho * (1 + 1e-6); }
   bin(s) { return Math.min(this.bins.length - 1, Math.max(0, Math.floor(this.angle[s]))); }
-  count(s, by) { this.bins[this.bin(s)] += by; }
-  // As a number from 0 to 1.
-  relative_size(s) {
-    const [low, high] = this.sizes;
-    return Math.min(1, Math.max(0, (this.measure[s] - low) / (high - low)));
+  count(s, by) {
+    this.bins[this.bin(s)] += by;
+    const octave = Math.floor(this.measure[s]) - kFirstOctave;
+    this.octaves[Math.min(kOctaves - 1, Math.max(0, octave))] += by;
+    if (this.marks(this, s) !== 0) this.marked += by;
+  }
+  // After what is marked has changed.
+  count_marked() {
+    this.marked = 0;
+    for (let s = 0; s < this.slots; ++s) if (this.marks(this, s) !== 0) ++this.marked;
+  }
+  // The octaves between which all that is kept lies, as log2 of area or volume.
+  sizes() {
+    const low = this.octaves.findIndex((count) => count > 0);
+    if (low < 0) return [0, 1];
+    return [low + kFirstOctave, this.octaves.findLastIndex((count) => count > 0) + 1 + kFirstOctave];
   }
 
   take_points(arrays) {

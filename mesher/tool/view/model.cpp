@@ -489,8 +489,8 @@ Model::Work ModelOf<D>::fresh(const Json& tag) {
   options.algorithm = mesher::Algorithm::gap_balls;
   auto graph = std::make_shared<const Graph<D>>(mesher_.input());
   auto mesh = std::make_shared<const mesher::MeshData<D>>(mesher_.mesh());
-  const std::uint64_t revision = revision_;
-  return [options, graph, mesh, revision, tag]() -> std::string {
+  const std::uint64_t revision = revision_, calls = mesher_.stats().calls;
+  return [options, graph, mesh, revision, calls, tag]() -> std::string {
     try {
       const double start = mesher::now();
       const auto made = mesher::mesh(*graph, options);
@@ -498,8 +498,9 @@ Model::Work ModelOf<D>::fresh(const Json& tag) {
       const mesher::Mesh<D>&a = made.mesh, &b = *mesh;
       return Json{{"kind", "fresh"},
                   {"seconds", seconds},
-                  {"vertices", made.mesh.vertices.size()},
-                  {"simplices", made.mesh.simplices.size()},
+                  {"vertices", made.report.stats.vertices},
+                  {"simplices", made.report.stats.simplices},
+                  {"calls", calls},
                   {"same", a == b},
                   {"revision", revision},
                   {"tag", tag}}

@@ -19,7 +19,8 @@
 //   {"do": "script", "text": lines}  of edits; each batch is an update. `limit sizes` is refused: a
 //                                   page cannot name files
 //   {"do": "snapshot"}               all of the mesh again
-//   {"do": "fresh"}                  a run from scratch, to compare times
+//   {"do": "fresh"}                  a run from scratch, to compare times and counts; `calls`: how
+//                                   many the program has to run for it
 //   {"do": "calls", "on": true}      from now on, draw which calls of the engine each update runs
 // `tag`, any number, comes back with the answer. Anything else is refused and changes nothing.
 //

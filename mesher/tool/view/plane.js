@@ -4,7 +4,7 @@
 // does not grow with the mesh; another place or scale shows the old picture, moved, and draws it anew
 // in cells, within a budget for each frame. The budget follows from how long frames take.
 
-import {COLOUR, LINE, make_program} from './gl.js';
+import {COLOUR, LINE, make_program, put_judged, set_colours} from './gl.js';
 import {Tiles} from './tiles.js';
 
 const kCell = 64;        // pixels
@@ -136,17 +136,12 @@ export class Plane {
     };
     this.triangles = new Tiles(gl, {bytes: 36, lo, hi, bounds: triangle_box,
       write: (s, origin, floats, octets, at) => {
-        const quality = Math.min(255, mesh.angle[s] * 255 / 60);
-        const size = mesh.relative_size(s) * 255, marks = this.settings.judge(mesh, s);
+        const marks = this.settings.judge(mesh, s);
         for (let k = 0; k < 3; ++k, at += 3) {
           const v = 2 * mesh.simplices[3 * s + k];
           floats[at] = mesh.places[v] - origin[0];
           floats[at + 1] = mesh.places[v + 1] - origin[1];
-          const o = 4 * (at + 2);
-          octets[o] = quality;
-          octets[o + 1] = size;
-          octets[o + 2] = mesh.labels[s];
-          octets[o + 3] = marks;
+          put_judged(octets, 4 * (at + 2), mesh, s, marks, 60);
         }
       }});
     this.edges = new Tiles(gl, {bytes: 16, lo, hi, bounds: edge_box,
@@ -332,6 +327,7 @@ export class Plane {
     const gl = this.gl;
     const took = now - this.last;
     this.last = now;
+    this.follow_sizes();
     this.triangles.flush();
     this.edges.flush();
     this.points.flush();
@@ -350,6 +346,13 @@ export class Plane {
     this.put_picture(0, 0, 1);
     this.draw_fading(now);
     return busy || this.fading.length > 0 || this.fresh.size > 0;
+  }
+
+  // Where sizes are coloured, another scale changes all colours.
+  follow_sizes() {
+    const scale = this.settings.mode === 'size' ? this.mesh.sizes().join() : null;
+    if (scale !== null && scale !== this.scale) this.spoil();
+    this.scale = scale;
   }
 
   // After the camera has moved, the picture shows what it had, in its new place.
@@ -479,7 +482,7 @@ export class Plane {
   draw_triangles(box) {
     const gl = this.gl, at = this.programs.triangles;
     this.begin(at);
-    gl.uniform1i(at.mode, ['region', 'quality', 'size'].indexOf(this.settings.mode));
+    set_colours(gl, at, this.mesh, this.settings.mode);
     gl.uniform1i(at.all, this.settings.all ? 1 : 0);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.triangles.buffer);
     const used = [this.attribute(at, 'at', 2, gl.FLOAT, 12, 0),

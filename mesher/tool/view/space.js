@@ -3,7 +3,7 @@
 // Which faces those are is found anew after every change: the cost is that of a visit of all
 // tetrahedra.
 
-import {COLOUR, LINE, make_program} from './gl.js';
+import {COLOUR, LINE, make_program, put_judged, set_colours} from './gl.js';
 import {FREE} from './mesh.js';
 
 const NONE = 0xffffffff;
@@ -176,18 +176,13 @@ export class Space {
       }
       const normal = cross(minus(x[1], x[0]), minus(x[2], x[0]));
       const length = Math.hypot(normal[0], normal[1], normal[2]) || 1;
-      const quality = Math.min(255, m.angle[s] * 255 / 70), size = m.relative_size(s) * 255;
       const marks = this.settings.judge(m, s), born = this.born.get(s) || 0;
       for (let k = 0; k < 3; ++k, at += words) {
         for (let d = 0; d < 3; ++d) {
           floats[at + d] = x[k][d];
           floats[at + 3 + d] = normal[d] / length;
         }
-        const o = 4 * (at + 6);
-        octets[o] = quality;
-        octets[o + 1] = size;
-        octets[o + 2] = m.labels[s];
-        octets[o + 3] = marks;
+        put_judged(octets, 4 * (at + 6), m, s, marks, 70);
         floats[at + 7] = born;
       }
     }
@@ -309,7 +304,7 @@ export class Space {
     gl.uniform1f(at.now, now);
     gl.uniform1f(at.opacity, opacity);
     gl.uniform3fv(at.fill, fill);
-    gl.uniform1i(at.mode, ['region', 'quality', 'size'].indexOf(this.settings.mode));
+    set_colours(gl, at, this.mesh, this.settings.mode);
     gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
     const used = [];
     for (const [attribute, size, type, offset] of [['at', 3, gl.FLOAT, 0],

@@ -3,7 +3,8 @@
 //   node browser_test.mjs TOOL DATA SCRATCH [PICTURES]
 //
 // Needs the npm package playwright-core (NODE_PATH or beside), and Chromium (CHROMIUM, or in PATH).
-// PICTURES: a folder for screenshots. FIGURES=1: measures drags of meshes up to 10^6 triangles, too.
+// PICTURES: a folder for screenshots. FIGURES=1: measures drags of meshes up to 10^6 points, too.
+// PAGES: a folder with page files to be used instead of the tool's, which needs no build then.
 
 import assert from 'node:assert/strict';
 import {execFileSync, spawn} from 'node:child_process';
@@ -22,7 +23,9 @@ const {chromium} = require(process.env.PLAYWRIGHT || 'playwright-core');
 const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
   args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
-    '--ignore-gpu-blocklist'],
+    '--ignore-gpu-blocklist',
+    // Pages that are not from the server may not connect to it otherwise.
+    ...process.env.PAGES ? ['--disable-features=LocalNetworkAccessChecks'] : []],
 });
 
 // --- Servers and pages -----------------------------------------------------------------------
@@ -59,6 +62,11 @@ async function open(server, size = {width: 1280, height: 800}) {
   page.on('console', (message) => {
     if (message.type() === 'error' && !/WebSocket/.test(message.text())) faults.push(message.text());
   });
+  if (process.env.PAGES) {
+    await page.route(/\/[0-9a-f]+\/(\w+\.(js|css))?$/, (route) => route.fulfill({path:
+      path.join(process.env.PAGES, path.basename(new URL(route.request().url()).pathname)
+        .replace(/^[0-9a-f]{32}$/, 'page.html'))}));
+  }
   await page.goto(server.address);
   await quiet(page);
   return page;
@@ -108,6 +116,36 @@ const pixel = (page, place) => page.evaluate((p) => new Promise((done) => {
     done(Array.from(out));
   });
 }), place);
+
+// The mean colour of the picture around a place.
+const patch = (page, place, reach = 10) => page.evaluate(([p, r]) => new Promise((done) => {
+  requestAnimationFrame(() => {
+    const {view} = window.mesher, gl = view.gl, side = 2 * r + 1;
+    view.frame(performance.now());
+    const [x, y] = view.on_page(p), out = new Uint8Array(4 * side * side);
+    gl.readPixels(x * view.ratio - r, view.height - y * view.ratio - r, side, side, gl.RGBA,
+      gl.UNSIGNED_BYTE, out);
+    done([0, 1, 2].map((c) => out.reduce((sum, v, i) => sum + (i % 4 === c ? v : 0), 0) / side ** 2));
+  });
+}), [place, reach]);
+// The colour of what is drawn over the picture, with its opacity.
+const mark = (page, place) => page.evaluate((p) => {
+  const {view} = window.mesher, canvas = document.getElementById('marks');
+  if (canvas.style.visibility === 'hidden') return [0, 0, 0, 0];
+  const [x, y] = view.on_page(p).map((c) => Math.round(c * view.ratio));
+  return Array.from(canvas.getContext('2d').getImageData(x, y, 1, 1).data);
+}, place);
+const is_near = (colour, wanted, most = 60) => colour.every((c, i) =>
+  i > 2 || Math.abs(c - wanted[i]) < most);
+const ORANGE = [224, 122, 0], RED = [200, 16, 46];
+const command = async (page, what) => {
+  await page.evaluate((c) => window.mesher.command(c), what);
+  await quiet(page);
+};
+const problems = (page) => page.evaluate(() => window.mesher.problems);
+// Cells of the table of the last update.
+const figures_of = (page) => page.evaluate(() => Array.from(
+  document.querySelectorAll('#update tr'), (row) => Array.from(row.cells, (c) => c.textContent)));
 
 const tests = {};
 
@@ -233,6 +271,156 @@ tests['drag, draw, undo, errors and saving'] = async () => {
   assert.deepEqual(await state(page), counts);
   await page.close();
   assert.equal(await server.end(), 0);
+};
+
+tests['colours of sizes follow edits'] = async () => {
+  fs.writeFileSync('sizes.poly', SQUARE);
+  const server = await serve('sizes.poly');
+  const page = await open(server);
+  await page.click('#changes');
+  await page.click('input[value=size]');
+  const places = [[0.15, 0.15], [0.85, 0.85], [0.2, 0.8]];
+  const colours = async () => {
+    await page.waitForTimeout(200);
+    await quiet(page);
+    const all = [];
+    for (const place of places) all.push(await patch(page, place));
+    return all;
+  };
+  const scale = () => page.evaluate(() => document.getElementById('scale').textContent);
+  const first = [await colours(), await scale()];
+  await command(page, {do: 'limit', largest: 0.03});
+  await command(page, {do: 'limit', largest: 2e-5, box: [[0, 0], [0.3, 0.3]]});
+  await command(page, {do: 'limit', largest: 1e-3, box: [[0.7, 0.7], [1, 1]]});
+  const last = await colours();
+  await shot(page, 'sizes');
+  for (let i = 0; i < 3; ++i) {
+    const away = Math.hypot(...last[i].map((c, k) => c - last[(i + 1) % 3][k]));
+    assert.ok(away > 60, `${i}: ${last.join(' | ')}`);
+  }
+  // Small ones are dark, large ones pale.
+  assert.ok(last[0][0] < 90 && last[2][0] > 120, last.join(' | '));
+  const [least, most] = await page.evaluate(() => {
+    const m = window.mesher.mesh, areas = [];
+    for (let s = 0; s < m.slots; ++s) if (m.is_kept(s)) areas.push(2 ** m.measure[s]);
+    return [Math.min(...areas), Math.max(...areas)];
+  });
+  const [, from, to] = (await scale()).match(/^area from (\S+) to (\S+)$/).map(Number);
+  assert.ok(from <= least * 1.1 && 2.2 * from > least && to >= most * 0.9 && to < 2.2 * most,
+    `${from} ${least} ${most} ${to}`);
+  for (let i = 0; i < 3; ++i) await command(page, {do: 'undo'});
+  assert.deepEqual([await colours(), await scale()], first);
+  await page.close();
+  await server.end();
+};
+
+tests['what is marked is counted after edits, and visited'] = async () => {
+  fs.writeFileSync('marked.poly', SQUARE);
+  const server = await serve('marked.poly');
+  const page = await open(server);
+  // By itself, from the corners alone: which triangles have an angle below that.
+  const below = (degrees) => page.evaluate((most) => {
+    const m = window.mesher.mesh, found = [];
+    for (let s = 0; s < m.slots; ++s) {
+      if (!m.is_kept(s)) continue;
+      const p = m.outline(s), side = (i, k) => Math.hypot(p[2 * i] - p[2 * k], p[2 * i + 1] - p[2 * k + 1]);
+      const [a, b, c] = [side(0, 1), side(1, 2), side(2, 0)].sort((x, y) => x - y);
+      const angle = Math.acos((b * b + c * c - a * a) / (2 * b * c)) * 180 / Math.PI;
+      if (angle < most) found.push(p);
+    }
+    return found;
+  }, degrees);
+  const told = async () => {
+    await page.waitForTimeout(200);
+    await quiet(page);
+    return page.evaluate(() => document.getElementById('marked').textContent);
+  };
+  const bound = await page.evaluate(() =>
+    Math.asin(1 / (2 * window.mesher.mesh.rho)) * 180 / Math.PI);
+  const agrees = async (degrees) => {
+    const count = (await below(degrees)).length;
+    assert.equal(await told(), count + ' marked');
+    return count;
+  };
+  assert.equal(await told(), '');
+  await page.fill('#below', '35');
+  await page.press('#below', 'Tab');
+  await page.click('#poor');
+  const counts = [await agrees(35)];
+  await command(page, {do: 'line', through: [1, [0.9, 0.05]]});  // 3 degrees
+  counts.push(await agrees(35));
+  await command(page, {do: 'limit', largest: 0.002});
+  counts.push(await agrees(35));
+  await pull(page, [0.9, 0.05], [0.7, 0.3]);
+  counts.push(await agrees(35));
+  assert.ok(new Set(counts).size > 2, counts.join());
+  await command(page, {do: 'undo'});
+  assert.equal(await agrees(35), counts[2]);
+  await page.click('#poor');
+  assert.equal(await told(), '');
+  await page.click('#forced');
+  await agrees(bound - 1e-4);
+  await command(page, {do: 'undo'});
+  const forced = await agrees(bound - 1e-4);
+  assert.ok(forced > 0 && forced < 40, `${forced} stay above the bound`);
+  // All of them are visited, one after the other.
+  const marked = (await below(bound - 1e-4)).map((p) => p.join());
+  const visited = new Set();
+  for (let i = 0; i < forced; ++i) {
+    await page.click('#next_marked');
+    visited.add(await page.evaluate(() => {
+      const m = window.mesher.mesh, {x, y} = window.mesher.view.camera;
+      for (let s = 0; s < m.slots; ++s) {
+        if (!m.is_kept(s)) continue;
+        const p = m.outline(s), signs = [0, 1, 2].map((k) => {
+          const a = 2 * k, b = 2 * ((k + 1) % 3);
+          return Math.sign((p[b] - p[a]) * (y - p[a + 1]) - (p[b + 1] - p[a + 1]) * (x - p[a]));
+        });
+        if (signs.every((sign) => sign === signs[0])) return p.join();
+      }
+      return null;
+    }));
+  }
+  assert.deepEqual(Array.from(visited).sort(), marked.sort());
+  await page.waitForTimeout(300);
+  assert.ok(is_near(await patch(page, await page.evaluate(() => {
+    const {x, y} = window.mesher.view.camera;
+    return [x, y];
+  }), 1), [199, 26, 128], 40), 'it has the colour of a mark');
+  await shot(page, 'marked');
+  await page.close();
+  await server.end();
+};
+
+tests['a fresh run beside an update'] = async () => {
+  fs.writeFileSync('fresh.poly', SQUARE);
+  const server = await serve('fresh.poly');
+  const page = await open(server);
+  await command(page, {do: 'limit', largest: 0.001});
+  await command(page, {do: 'point', at: [0.4, 0.45]});
+  const alone = await figures_of(page);
+  assert.ok(alone.every((row) => row.length === 2), JSON.stringify(alone));
+  const fresh = async () => {
+    await page.click('#fresh');
+    await until('a fresh run', () => page.evaluate(() =>
+      document.getElementById('fresh_result').textContent.includes('the same mesh')));
+  };
+  await fresh();
+  const {vertices, simplices} = await state(page);
+  const table = Object.fromEntries((await figures_of(page)).map(([name, ...rest]) => [name, rest]));
+  assert.deepEqual(table[''], ['update', 'fresh run']);
+  assert.match(table.time[1], /^[\d.]+ ms$/);
+  assert.deepEqual(table['triangles that came, went'][1], `${simplices}, 0`);
+  assert.deepEqual(table.vertices[1], `${vertices}, 0`);
+  const calls = table['calls that ran, were reused'].map((text) => parseInt(text, 10));
+  assert.ok(calls[0] > 0 && calls[1] > calls[0], calls.join());
+  assert.deepEqual(alone.map((row) => row[1]).slice(1),
+    Object.values(table).slice(2).map((rest) => rest[0]));
+  await shot(page, 'fresh');
+  await command(page, {do: 'point', at: [0.6, 0.45]});
+  assert.deepEqual((await figures_of(page))[0], ['', 'update', 'earlier run']);
+  await page.close();
+  await server.end();
 };
 
 tests['the calls of an update'] = async () => {
@@ -589,8 +777,8 @@ for (const [name, test] of Object.entries(tests)) {
     console.log('ok      ' + name);
   } catch (error) {
     failed += 1;
+    console.log(['FAILED  ' + name, error.stack, ...faults].join('\n'));
     faults.length = 0;
-    console.log('FAILED  ' + name + '\n' + error.stack);
   }
 }
 await browser.close();

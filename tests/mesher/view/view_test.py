@@ -175,6 +175,10 @@ def shows_edits_to_all():
             assert headers["Content-Disposition"] == f'attachment; filename="square.{extension}"'
         fresh = one.ask(do="fresh")
         assert fresh["kind"] == "fresh" and fresh["same"] is True, fresh
+        state = one.ask(do="snapshot")["state"]
+        for count in ("vertices", "simplices"):
+            assert fresh[count] == state[count], count
+        assert fresh["calls"] > 0
 
 
 def refuses_nonsense(seed):
