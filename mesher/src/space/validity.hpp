@@ -107,9 +107,9 @@ class SpaceNames {
 [[noreturn]] void fail(const SpaceConflict& conflict, const SpaceNames& names,
                        const FeatureStore& store);
 
-/// Throws: Error (bad_polygon, not_flat) if a polygon, whose corners are different in each loop, is
-/// none: if it has no area, is not flat, has a loop outside the first or twice the same edge, or if
-/// what it declares to lie in it does not.
+/// Throws: Error (bad_polygon, not_flat), with what place is off, if a polygon, whose corners are
+/// different in each loop, is none: if it has no area, is not flat, has a loop outside the first or
+/// twice the same edge, or if what it declares to lie in it does not.
 void require_shape(const Polygon& f, PolygonId id, const FeatureStore& store);
 
 namespace validity {

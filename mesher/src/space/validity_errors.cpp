@@ -38,8 +38,10 @@ Words words_of(SpaceConflict::Kind kind) {
   return {ErrorCode::overlapping_polygons, " overlaps ", ""};
 }
 
-[[noreturn]] void fail_polygon(ErrorCode code, PolygonId id, const std::string& what) {
-  throw Error(code, "polygon " + id_text(id) + " " + what, {}, {mesher::Feature(id)});
+[[noreturn]] void fail_polygon(ErrorCode code, PolygonId id, const std::string& what,
+                               const Point<3>& at) {
+  throw Error(code, "polygon " + id_text(id) + " " + what, {}, {mesher::Feature(id)},
+              {position_of(at)});
 }
 
 void require_loops_inside(const Polygon& f, PolygonId id) {
@@ -48,7 +50,8 @@ void require_loops_inside(const Polygon& f, PolygonId id) {
     const Point<3> middle = scaled(0.5, plus(f.places[i], f.places[f.next(i)]));
     if (loop_contains(f, 0, f.plane.in_frame(middle))) continue;
     fail_polygon(ErrorCode::bad_polygon, id,
-                 "has a loop at " + place_text(f.places[i]) + " that does not lie in its first");
+                 "has a loop at " + place_text(f.places[i]) + " that does not lie in its first",
+                 f.places[i]);
   }
 }
 
@@ -60,14 +63,15 @@ void require_edges_once(const Polygon& f, PolygonId id, const FeatureStore& stor
   const Edge& e = store.edges()[*twice];
   fail_polygon(
       ErrorCode::bad_polygon, id,
-      "has the edge from " + place_text(e.place_a) + " to " + place_text(e.place_b) + " twice");
+      "has the edge from " + place_text(e.place_a) + " to " + place_text(e.place_b) + " twice",
+      e.place_a);
 }
 
 void require_declared_inside(const Polygon& f, PolygonId id, const FeatureStore& store) {
   const auto require = [&](const Point<3>& x, const std::string& what, const Point<3>& at) {
     if (contains(f, x)) return;
     fail_polygon(ErrorCode::bad_polygon, id,
-                 "declares " + what + place_text(at) + " to lie in it, which does not");
+                 "declares " + what + place_text(at) + " to lie in it, which does not", at);
   };
   std::vector<VertexHandle> corners = f.corners;
   make_set(corners);
@@ -118,13 +122,15 @@ void fail(const SpaceConflict& c, const SpaceNames& names, const FeatureStore& s
 void require_shape(const Polygon& f, PolygonId id, const FeatureStore& store) {
   if (!has_area(f)) {
     fail_polygon(ErrorCode::bad_polygon, id,
-                 "has no area; its first corner is at " + place_text(f.places.front()));
+                 "has no area; its first corner is at " + place_text(f.places.front()),
+                 f.places.front());
   }
   if (!is_flat(f)) {
     const Deviation most = deviation(f);
     fail_polygon(ErrorCode::not_flat, id,
                  "is not flat: " + place_text(most.at) + " is " + text::to_text(most.height) +
-                     " off its plane");
+                     " off its plane",
+                 most.at);
   }
   require_edges_once(f, id, store);
   require_loops_inside(f, id);

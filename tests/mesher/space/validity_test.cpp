@@ -342,12 +342,15 @@ TEST_CASE("A polygon that crosses itself is told so") {
 
 TEST_CASE("What is no polygon is refused, with its id and the place") {
   Plc plc;
+  mesher::Position at{};
   const auto code = [&](PolygonParts parts) -> std::string {
     Polygon& f = plc.scene.features().store().record(std::move(parts));
     try {
       require_shape(f, PolygonId{9}, plc.scene.store());
     } catch (const Error& error) {
       REQUIRE(support::ids_of(error) == support::ids({9}));
+      REQUIRE(error.places().size() == 1);
+      at = error.places()[0];
       return std::string(code_name(error.code()));
     }
     return "";
@@ -360,10 +363,14 @@ TEST_CASE("What is no polygon is refused, with its id and the place") {
   REQUIRE(code({{outer}, {{hole[0], hole[1]}, {hole[1], in}}, {}}).empty());
   REQUIRE(code({{{outer[0], outer[1], out}}, {}, {}}).empty());
   REQUIRE(code({{{outer[0], outer[2], out}}, {}, {}}) == "bad_polygon");  // on one line
+  CHECK(at == mesher::position_of(Point<3>{0, 0, 0}));
   REQUIRE(code({{{outer[0], outer[1], up, outer[3]}}, {}, {}}) == "not_flat");
   REQUIRE(code({{outer}, {}, {up}}) == "not_flat");
+  CHECK(at == mesher::position_of(Point<3>{0.75, 0.75, 1}));
   REQUIRE(code({{outer, beside}, {}, {}}) == "bad_polygon");
+  CHECK(at == mesher::position_of(Point<3>{1.5, 1.5, 0}));
   REQUIRE(code({{outer}, {}, {out}}) == "bad_polygon");
+  CHECK(at == mesher::position_of(Point<3>{3, 3, 0}));
   REQUIRE(code({{outer, hole}, {{outer[0], outer[2]}}, {}}) == "bad_polygon");  // through the hole
   REQUIRE(code({{outer, {outer[0], outer[1], in}}, {}, {}}) == "bad_polygon");  // an edge twice
 }
