@@ -95,6 +95,22 @@ Graph<D> InputIndex<D>::part(const std::set<Feature>& features) const {
 }
 
 template <int D>
+std::vector<PointId> InputIndex<D>::points_of(const Feature& feature) const {
+  const Graph<D> graph = part({feature});
+  std::set<PointId> points;
+  for (const auto& p : graph.points) points.insert(p.id);
+  for (const auto& l : graph.polylines) points.insert(l.points.begin(), l.points.end());
+  if constexpr (D == 3) {
+    for (const auto& f : graph.polygons) {
+      for (const auto& loop : f.loops) points.insert(loop.begin(), loop.end());
+      for (const auto& edge : f.edges) points.insert(edge.begin(), edge.end());
+      points.insert(f.points.begin(), f.points.end());
+    }
+  }
+  return {points.begin(), points.end()};
+}
+
+template <int D>
 std::vector<std::string> InputIndex<D>::path_lines(const Json& command, bool polygon) {
   const Json& through = field(command, "through");
   if (!through.is_array() || through.size() > kMostFeatures) throw refusal("'through' is no list");

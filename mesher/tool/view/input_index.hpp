@@ -28,6 +28,9 @@ class InputIndex {
   /// Of these features those that the input has.
   [[nodiscard]] mesher::Graph<D> part(const std::set<mesher::Feature>& features) const;
 
+  /// The points of a point, line or polygon, ascending; none if it is not there.
+  [[nodiscard]] std::vector<mesher::PointId> points_of(const mesher::Feature& feature) const;
+
   /// All holes and regions that came; some may be gone.
   [[nodiscard]] const std::set<mesher::SeedId>& seeds() const noexcept { return seeds_; }
 

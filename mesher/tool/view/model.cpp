@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -94,10 +95,11 @@ class ModelOf final : public Model {
   struct Done {  // an update in the history
     Lines again, back;
   };
+  using Places = std::map<PointId, mesher::Point<D>>;
   struct Drag {
     ClientId client = 0;
-    PointId point{};
-    mesher::Point<D> from{};
+    Feature feature;
+    Places from;  // of its points, before
     bool moved = false;
     std::set<Simplex> came, went;  // since it began
 
@@ -128,6 +130,9 @@ class ModelOf final : public Model {
   void change(const Lines& lines, Why why, const Json& tag, const Send& send);
   void drag(ClientId client, const Json& command, const Json& tag, const Send& send);
   void settle(const Send& send);
+  [[nodiscard]] Drag drag_of(ClientId client, const Json& command) const;
+  [[nodiscard]] static Places targets_of(const Json& command, const Places& from);
+  [[nodiscard]] Lines moves_to(const Places& places) const;
   void go_back(bool redo, const Json& tag, const Send& send);
   void record(const Edits& edits, Why why, const std::optional<Lines>& back);
   void remember(Why why, Lines again, Lines back);
@@ -393,23 +398,63 @@ void ModelOf<D>::take_back(const Lines& lines, const std::optional<mesher::Optio
   Watched(mesher_, progress_).update();
 }
 
+// One that begins.
+template <int D>
+typename ModelOf<D>::Drag ModelOf<D>::drag_of(ClientId client, const Json& command) const {
+  const Feature feature = command.contains("point") ? Feature(PointId{id_of(command["point"])})
+                                                    : feature_of(field(command, "feature"));
+  if (feature.seed()) throw refusal("holes and regions are not dragged");
+  Drag drag{client, feature, {}, false, {}, {}};
+  for (const PointId p : index_.points_of(feature)) drag.from[p] = mesher_.point(p)->at;
+  if (drag.from.empty()) throw Error(ErrorCode::unknown_id, text_of(feature) + " is not there");
+  return drag;
+}
+
+// Where the points are to be.
+template <int D>
+typename ModelOf<D>::Places ModelOf<D>::targets_of(const Json& command, const Places& from) {
+  Places places = from;
+  if (command.contains("point")) {
+    places.begin()->second = position_of_json<D>(field(command, "at"));
+    return places;
+  }
+  const auto by = position_of_json<D>(field(command, "by"));
+  for (auto& [point, at] : places) {
+    for (std::size_t i = 0; i < D; ++i) at[i] += by[i];
+  }
+  return places;
+}
+
+// Of the points that are not there.
+template <int D>
+typename ModelOf<D>::Lines ModelOf<D>::moves_to(const Places& places) const {
+  Lines lines;
+  for (const auto& [point, at] : places) {
+    const auto now = mesher_.point(point);
+    if (now && now->at != at) lines.push_back("move" + id_word(point) + place_words<D>(at));
+  }
+  return lines;
+}
+
 template <int D>
 void ModelOf<D>::drag(ClientId client, const Json& command, const Json& tag, const Send& send) {
-  const PointId point{id_of(field(command, "point"))};
-  const auto to = position_of_json<D>(field(command, "at"));
+  const Drag next = drag_of(client, command);
   const bool drops = flag_of(command, "drop");
-  if (drag_ && (drag_->client != client || drag_->point != point)) settle(send);
-  const auto was = mesher_.point(point);
-  if (!was) throw Error(ErrorCode::unknown_id, text_of(Feature(point)) + " is not there");
-  if (!drag_) drag_ = Drag{client, point, was->at, false, {}, {}};
+  const bool goes_on = drag_ && drag_->client == client && drag_->feature == next.feature;
+  const Places to = targets_of(command, goes_on ? drag_->from : next.from);
+  if (!goes_on) {
+    settle(send);
+    drag_ = next;
+  }
   std::optional<Error> refused;
-  if (was->at != to) {
+  if (const Lines moves = moves_to(to); !moves.empty()) {
     try {
-      Edits edits = edits_of({"move" + id_word(point) + place_words<D>(to)});
+      Edits edits = edits_of(moves);
+      const auto features = features_of(edits);
       const auto made = update(std::move(edits));
       drag_->moved = true;
       drag_->follow(made.change.domain);
-      send_change(made, {Feature(point)}, tag, send);
+      send_change(made, features, tag, send);
     } catch (const Error& error) {
       refused = error;
     }
@@ -429,14 +474,18 @@ void ModelOf<D>::settle(const Send& send) {
   if (!drag_) return;
   const Drag dragged = *drag_;
   drag_.reset();
-  const auto now = mesher_.point(dragged.point);
-  if (!dragged.moved || !now || now->at == dragged.from) return;
-  const Edits edits = edits_of({"move" + id_word(dragged.point) + place_words<D>(now->at)});
-  const Lines back{"move" + id_word(dragged.point) + place_words<D>(dragged.from)};
+  const Lines back = moves_to(dragged.from);
+  if (!dragged.moved || back.empty()) return;
+  const Edits undoing = edits_of(back);
+  Lines moves;
+  for (const Feature& f : features_of(undoing)) {
+    moves.push_back("move" + id_word(*f.point()) + place_words<D>(mesher_.point(*f.point())->at));
+  }
+  const Edits edits = edits_of(moves);
   try {
     record(edits, Why::edit, back);
   } catch (const Error& error) {
-    send_change(update(edits_of(back)), {Feature(dragged.point)}, Json(), send);
+    send_change(update(undoing), features_of(undoing), Json(), send);
     send({text_of_json(json_of_error(error, Json())), false, true});
     return;
   }

@@ -11,6 +11,8 @@
 //   {"do": "delete", "features": [["point", id], ["line", id], ["polygon", id], ["hole", id],
 //                                 ["region", id]]}       with what hangs on points
 //   {"do": "drag", "point": id, "at": [x, y], "drop": true}
+//   {"do": "drag", "feature": ["polygon", id], "by": [dx, dy, dz], "drop": true}
+//                                   all points of a line or polygon, from where it began
 //   {"do": "limit", "largest": A, "box": [[x, y], [x, y]]}
 //                                   a limit of area (volume), or "size": H, or, with neither, none;
 //                                   without a box everywhere, in place of all others
@@ -24,9 +26,9 @@
 //   {"do": "calls", "on": true}      from now on, draw which calls of the engine each update runs
 // `tag`, any number, comes back with the answer. Anything else is refused and changes nothing.
 //
-// A drag is one update in journal and history: the move from where it began to where it ends, which
-// is when it is dropped, or when anybody does something else. Until then the mesh has updates that
-// the journal does not.
+// A drag is one update in journal and history: the moves from where it began to where it ends,
+// which is when it is dropped, or when anybody does something else. Until then the mesh has updates
+// that the journal does not.
 #pragma once
 
 #include <cstdint>

@@ -441,6 +441,94 @@ def follows_in_space():
         assert client.ask(do="fresh")["same"] is True
 
 
+def drags_lines_and_polygons():
+    """All points of a line or polygon move in one update, which undo takes back as one."""
+    def told(client, mirror, **command):
+        tag, messages = client.send(**command), []
+        while not messages or messages[-1].get("tag") != tag or messages[-1]["kind"] == "state":
+            messages.append(client.receive())
+            if command.get("drop") and messages[-1]["kind"] == "change":
+                mirror.apply(messages.pop())
+        if messages[-1]["kind"] == "dropped":  # an error comes behind
+            end = client.send(do="nothing")
+            while messages[-1].get("tag") != end:
+                messages.append(client.receive())
+            messages.pop()
+        for message in messages:
+            if message["kind"] == "change":
+                mirror.apply(message)
+        return messages[-1]
+
+    with Server(TOOL, "square.poly", "--journal", "line_drag.journal") as server:
+        client = Client(server)
+        mirror = Mirror(client.snapshot)
+        mirror.apply(client.ask(do="line", through=[[.3, .3], [.5, .4], [.7, .3]]))
+        before = same_as_snapshot(client, mirror)
+        for y in (.1, .2, .25):
+            told(client, mirror, do="drag", feature=["line", 5], by=[0, y])
+            assert mirror.points[6] == (.5, .4 + y)
+        state = told(client, mirror, do="drag", feature=["line", 5], by=[0, .5], drop=True)["state"]
+        assert state["updates"] == before["state"]["updates"] + 1
+        assert [mirror.points[p] for p in (5, 6, 7)] == [(.3, .8), (.5, .9), (.7, .8)]
+        same_as_snapshot(client, mirror)
+        # Back to where it began: no update. Refused: nothing is moved.
+        told(client, mirror, do="drag", feature=["line", 5], by=[.1, 0])
+        assert told(client, mirror, do="drag", feature=["line", 5], by=[0, 0],
+                    drop=True)["state"]["updates"] == state["updates"]
+        refused = told(client, mirror, do="drag", feature=["line", 5], by=[0, .15], drop=True)
+        assert refused["code"] == "outside_domain" and refused["places"] == [[.5, 1.05, 0]], refused
+        assert mirror.points[6] == (.5, .9)
+        # Another edit drops it.
+        told(client, mirror, do="drag", feature=["line", 5], by=[-.1, 0])
+        change = client.ask(do="undo")
+        assert change["state"]["updates"] == state["updates"] + 2
+        mirror.apply(change)
+        assert mirror.points[6] == (.5, .9)
+        mirror.apply(client.ask(do="undo"))
+        assert mirror.points[6] == (.5, .4)
+        line = {"feature": ["line", 5]}
+        for wrong in (line, {**line, "at": [0, 0]}, {**line, "by": [0, 0, 0]},
+                      {**line, "by": [1e300, 0]}, {"feature": ["line", 99], "by": [0, 0]},
+                      {"feature": ["hole", 1], "by": [0, 0]}, {"feature": 5, "by": [0, 0]},
+                      {"point": 5, "by": [0, 0]}):
+            assert client.ask(do="drag", **wrong)["kind"] == "error", wrong
+        same_as_snapshot(client, mirror)
+        script = require_replayed(server, "square.poly")
+        assert b"begin\nmove 5 0.3 0.8\nmove 6 0.5 0.9\nmove 7 0.7 0.8\ncommit\n" in script
+    box = ("--domain", "-1", "-1", "-1", "2", "2", "2")
+    with Server(TOOL, "cube.poly", *box, "--journal", "face_drag.journal") as server:
+        client = Client(server)
+        mirror = Mirror(client.snapshot)
+        first = mirror.content()
+        face = {p for p, at in mirror.points.items() if at[2] == 1}
+        assert len(face) == 4
+        told(client, mirror, do="drag", feature=["polygon", 6], by=[0, 0, .25])
+        state = told(client, mirror, do="drag", feature=["polygon", 6], by=[0, 0, .5],
+                     drop=True)["state"]
+        assert (state["updates"], state["undo"]) == (1, 1)
+        assert {p for p, at in mirror.points.items() if at[2] == 1.5} == face
+        assert client.ask(do="fresh")["same"] is True
+        same_as_snapshot(client, mirror)
+        # One corner alone bends its faces: a corner that is off is told, and nothing moves.
+        bent = told(client, mirror, do="drag", point=3, at=[-.25, 1, 1.75], drop=True)
+        assert bent["code"] == "not_flat" and bent["features"][0][0] == "polygon", bent
+        assert tuple(bent["places"][0]) in {(-.25, 1, 1.75), *mirror.points.values()}, bent
+        same_as_snapshot(client, mirror)
+        require_replayed(server, "cube.poly", *box)
+        mirror.apply(client.ask(do="undo"))
+        assert mirror.content() == first
+    server = Server(TOOL, "cube.poly", *box, "--journal", "face_drag.journal")
+    client = Client(server)
+    assert client.snapshot["state"]["redo"] == 1
+    assert client.ask(do="redo")["kind"] == "change"
+    client.ask(do="drag", feature=["polygon", 6], by=[.5, 0, 0])
+    server.kill()  # what was not dropped is not in the journal
+    with Server(TOOL, "cube.poly", *box, "--journal", "face_drag.journal") as server:
+        points = Mirror(Client(server).snapshot).points
+        assert {at for p, at in points.items() if p in face} == \
+            {(x, y, 1.5) for x in (0, 1) for y in (0, 1)}
+
+
 def draws_calls():
     """On request a picture of the calls that an update ran; of a drag one."""
     with Server(TOOL, "square.poly", "--journal", "calls.journal") as server:
@@ -763,7 +851,7 @@ def main():
           b"4 4 1 4\n0\n")
     subprocess.run([TOOL, "gen", "cube", "-o", "cube.poly"], check=True)
     for test in (refuses_strangers, shows_edits_to_all, tells_of_full_disks, follows_in_space,
-                 draws_calls, edits_limits, saves_pictures_of_the_last_update,
+                 drags_lines_and_polygons, draws_calls, edits_limits, saves_pictures_of_the_last_update,
                  comes_back_where_it_was, begins_with_a_script, takes_posted_scripts,
                  ends_with_its_parent, refuses_options):
         test()
