@@ -22,8 +22,11 @@ const settings = {mode: 'region', changes: true, all: false, poor: false, below:
 let mesh = null, view = null, state = null, seeds = [];
 let limits = {everywhere: null, boxes: []};  // of size: the last box that has a place counts there
 let tool = 'move', draft = [], hover = null, selected = null;
-let problems = [];  // errors: {text, places, features}
-let drag = null;    // {id, wanted, sent, tag}
+let problems = [];  // errors: {text, places, features, times}
+let told = null;    // the one of them whose text and features are shown
+// {what: is dragged, key: how it is told where, wanted, sent, tag, tags: all of them, problem: what
+// was refused on the way}
+let drag = null, last_drag = null;
 let gesture = null; // what the pointer does
 let frame_wanted = false, marks_stale = true, panel_stale = true;
 const sent = new Map();  // tag -> when
@@ -36,7 +39,7 @@ const text_of = (p) => '(' + p.map((x) => Number(x.toPrecision(8))).join(', ') +
 // --- Tools ---------------------------------------------------------------------------------------
 
 const TOOLS = {
-  move: ['Move', 'Drag a point; drag elsewhere to move the view; click selects'],
+  move: ['Move', 'Drag a point, or the line or polygon that a click has selected; elsewhere, the view'],
   point: ['Point', 'Click: a new point'],
   segment: ['Segment', 'Click its two ends; near a point it takes that'],
   polyline: ['Polyline', 'Click its points; Enter or a double click ends, Escape drops it'],
@@ -156,7 +159,9 @@ function receive(head, arrays, bytes) {
     }
   }
   panel_stale = true;
-  wake(head.kind !== 'change' || is_space() || !drag && (selected !== null || draft.length > 0) ||
+  const follows = !drag || drag.key === 'by';  // the ring at a point that is dragged can wait
+  wake(head.kind !== 'change' || is_space() ||
+    follows && (selected !== null || draft.length > 0 || told !== null) ||
     head.seeds !== undefined || head.limits !== undefined);
 }
 
@@ -240,8 +245,16 @@ function show_fresh(head) {
 
 function report(head) {
   $('fresh').disabled = false;
-  problems.unshift({text: head.text, places: head.places || [], features: head.features || []});
+  const found = {text: head.text, places: head.places || [], features: head.features || [], times: 1};
+  const of = [drag, last_drag].find((d) => d && d.tags.has(head.tag));
+  if (of) {  // a drag is refused once, at the last place
+    if (of.problem) found.times += of.problem.times;
+    problems = problems.filter((p) => p !== of.problem);
+    of.problem = found;
+  }
+  problems.unshift(found);
   problems.length = Math.min(problems.length, 20);
+  told = found;
   show_problems();
 }
 
@@ -249,8 +262,12 @@ function show_problems() {
   $('errors').innerHTML = '';
   for (const p of problems) {
     const item = document.createElement('li');
-    item.textContent = p.text;
-    item.onclick = () => p.places.length > 0 && go_to(p.places[0]);
+    item.textContent = p.text + (p.times > 1 ? ` (${p.times} times in a drag)` : '');
+    item.onclick = () => {
+      told = p;
+      if (p.places.length > 0) go_to(p.places[0]);
+      wake();
+    };
     $('errors').append(item);
   }
   wake(true);
@@ -456,12 +473,13 @@ function draw_marks() {
     g.fillText(label, at[0] - 5, at[1] + 4);
   }
   draw_limits(g);
-  if (selected) draw_selected(g, ring);
+  if (told) for (const feature of told.features) draw_feature(g, ring, feature, [200, 16, 46]);
+  if (selected) draw_feature(g, ring, selected, [224, 122, 0]);
   draw_draft(g, ring);
-  problems.forEach((p, i) => {
+  problems.forEach((p) => {
     for (const place of p.places) {
       ring(place.slice(0, mesh.dimension), 11, '#c8102e', 2.5);
-      if (i > 0) continue;
+      if (p !== told) continue;
       const at = view.on_page(place.slice(0, mesh.dimension));
       if (!at) continue;
       g.font = '12px sans-serif';
@@ -475,26 +493,25 @@ function draw_marks() {
   });
 }
 
-function draw_selected(g, ring) {
-  const [kind, id] = selected;
-  if (kind === 'point' && mesh.points.has(id)) ring(mesh.points.get(id), 8, '#e07a00', 2.5);
+function draw_feature(g, ring, [kind, id], colour) {
+  const strong = `rgb(${colour})`;
+  if (kind === 'point' && mesh.points.has(id)) ring(mesh.points.get(id), 8, strong, 2.5);
   const seed = seeds.find((s) => s.kind === kind && s.id === id);
-  if (seed) ring(seed.at, 10, '#e07a00', 2.5);
-  if (kind !== 'line') return;
-  g.strokeStyle = '#e07a00';
+  if (seed) ring(seed.at, 10, strong, 2.5);
+  const add_path = (vertices) => {
+    const places = vertices.map((v) => view.on_page(mesh.place(v)));
+    if (!places.every((p) => p)) return;
+    places.forEach((p, i) => i === 0 ? g.moveTo(...p) : g.lineTo(...p));
+  };
+  const faces = kind === 'polygon' ? mesh.polygon_faces(id) : [];
+  g.fillStyle = `rgba(${colour}, .3)`;
+  g.beginPath();
+  faces.forEach(add_path);
+  g.fill();
+  g.strokeStyle = strong;
   g.lineWidth = 3;
   g.beginPath();
-  const d = mesh.dimension;
-  for (let e = 0; e < mesh.edge_slots; ++e) {
-    if (mesh.edge_lines[e] !== id) continue;
-    const [a, b] = [0, 1].map((k) => {
-      const v = d * mesh.edges[2 * e + k];
-      return view.on_page(mesh.places.subarray(v, v + d));
-    });
-    if (!a || !b) continue;
-    g.moveTo(...a);
-    g.lineTo(...b);
-  }
+  (kind === 'line' ? mesh.line_edges(id) : Mesh.outline_of(faces)).forEach(add_path);
   g.stroke();
 }
 
@@ -648,10 +665,36 @@ scene.addEventListener('pointerdown', (event) => {
   gesture = {x, y, from: [x, y], moved: false, button: event.button, shift: event.shiftKey};
   if (tool !== 'move' || event.button !== 0) return;
   const id = view.shows_points() || is_space() ? view.pick_point(x, y) : null;
-  if (id === null) return;
-  gesture.point = id;
-  gesture.start = mesh.points.get(id).slice();
+  if (id !== null) return begin_drag(['point', id], mesh.points.get(id).slice());
+  const start = place_on_selected(x, y);
+  if (start) begin_drag(selected, start);
 });
+
+// Where on the line or polygon that is selected the pointer is; null if it is not.
+function place_on_selected(x, y) {
+  const [kind, id] = selected || [];
+  if (kind !== 'line' && kind !== 'polygon') return null;
+  const face = kind === 'polygon' ? view.pick_face(x, y) : null;
+  if (face && face.polygon === id) return face.place;
+  if (view.pick_line(x, y) !== (kind === 'line' ? id : -1 - id)) return null;
+  const ends = kind === 'line' ? mesh.line_edges(id) : Mesh.outline_of(mesh.polygon_faces(id));
+  let best = Infinity, found = null;
+  for (const place of ends.flat().map((v) => mesh.place(v))) {
+    const at = view.on_page(place), away = at ? Math.hypot(at[0] - x, at[1] - y) : Infinity;
+    if (away < best) [best, found] = [away, place];
+  }
+  return found;
+}
+
+// The gesture drags a feature; in space along a direction.
+function begin_drag(feature, start) {
+  const [kind, id] = feature, select = $(kind === 'polygon' ? 'polygon_axis' : 'axis');
+  const axis = 'xyz'.indexOf(select.value);
+  const direction = !is_space() ? null : axis < 0 ? view.normal_of(id) : UNITS[axis];
+  if (is_space() && !direction) return;
+  Object.assign(gesture, {feature, start, direction});
+}
+const UNITS = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
 
 scene.addEventListener('pointermove', (event) => {
   if (!mesh || measuring) return;
@@ -670,10 +713,10 @@ scene.addEventListener('pointermove', (event) => {
   [gesture.x, gesture.y] = [x, y];
   if (!gesture.moved) return;
   if (tool === 'limit' && gesture.button === 0 && !is_space()) return wake();
-  if (gesture.point !== undefined) {
+  if (gesture.feature) {
     if (!drag) {
-      drag = {id: gesture.point, wanted: null, sent: null, tag: 0};
-      selected = ['point', gesture.point];
+      drag = new_drag(gesture.feature);
+      selected = gesture.feature;
     }
     drag.wanted = dragged_to(gesture, x, y);
     follow_drag();
@@ -682,30 +725,46 @@ scene.addEventListener('pointermove', (event) => {
   } else {
     view.pan(dx, dy);
   }
-  wake(gesture.point === undefined);
+  wake(!drag || drag.key === 'by');
 });
 
-function dragged_to(from, x, y) {
-  if (!is_space()) {
-    const a = view.place(...from.from), b = view.place(x, y);
-    return snapped(from.start.map((v, i) => v + b[i] - a[i]));
-  }
-  const axis = $('axis').selectedIndex;
-  const by = view.along(from.start, axis, x - from.from[0], y - from.from[1]);
-  return from.start.map((v, i) => i === axis ? v + by : v);
+// A point is told where it is to be; lines and polygons, by how much they are to move.
+function new_drag([kind, id]) {
+  const what = kind === 'point' ? {point: id} : {feature: [kind, id]};
+  return {what, key: kind === 'point' ? 'at' : 'by', wanted: null, sent: null, tag: 0,
+    tags: new Set(), problem: null};
 }
 
-// Sends where the point is wanted, one position at a time.
+function dragged_to({feature, start, direction, from}, x, y) {
+  let by;
+  if (direction) {
+    const length = view.along(start, direction, x - from[0], y - from[1]);
+    by = direction.map((v) => v * length);
+  } else {
+    const a = view.place(...from), b = view.place(x, y);
+    by = b.map((v, i) => v - a[i]);
+  }
+  return snapped(feature[0] === 'point' ? start.map((v, i) => v + by[i]) : by);
+}
+
+function send_drag(of, more) {
+  const tag = command({do: 'drag', ...of.what, [of.key]: of.wanted, ...more});
+  of.tags.add(tag);
+  return tag;
+}
+
+// Sends where it is wanted, one position at a time.
 function follow_drag() {
   if (!drag || drag.tag !== 0 || !drag.wanted) return;
   if (drag.sent && drag.sent.every((v, i) => v === drag.wanted[i])) return;
   drag.sent = drag.wanted;
-  drag.tag = command({do: 'drag', point: drag.id, at: drag.wanted});
+  drag.tag = send_drag(drag, {});
 }
 
 function drop() {
   if (!drag) return;
-  if (drag.wanted) command({do: 'drag', point: drag.id, at: drag.wanted, drop: true});
+  if (drag.wanted) send_drag(drag, {drop: true});
+  last_drag = drag;
   drag = null;
   wake();
 }
@@ -754,8 +813,9 @@ window.addEventListener('keydown', (event) => {
   } else if ((event.ctrlKey || event.metaKey) && key.toLowerCase() === 'y') {
     command({do: 'redo'});
     event.preventDefault();
-  } else if (is_space() && 'xyz'.includes(key) && key.length === 1) {
-    $('axis').selectedIndex = 'xyz'.indexOf(key);
+  } else if (is_space() && 'xyzn'.includes(key) && key.length === 1) {
+    const polygon = key === 'n' || selected && selected[0] === 'polygon';
+    $(polygon ? 'polygon_axis' : 'axis').value = key === 'n' ? 'normal' : key;
   } else {
     return;
   }
@@ -821,6 +881,7 @@ $('fresh').onclick = () => {
 $('calls').onchange = () => command({do: 'calls', on: $('calls').checked});
 $('clear_errors').onclick = () => {
   problems = [];
+  told = null;
   show_problems();
 };
 function take_format() {
@@ -847,7 +908,7 @@ async function measure(seconds = 3) {
   }
   measuring = true;
   Object.assign(speed, {updates: 0, frames: 0, engine: [], trip: [], paint: [], decode: []});
-  drag = {id, wanted: null, sent: null, tag: 0};
+  drag = new_drag(['point', id]);
   const began = performance.now();
   let angle = 0;
   wake();
@@ -885,6 +946,7 @@ make_tools();
 // For tests: what the page knows.
 window.mesher = {
   get mesh() { return mesh; }, get view() { return view; }, get state() { return state; },
-  get seeds() { return seeds; }, get limits() { return limits; }, get problems() { return problems; }, get draft() { return draft; },
+  get seeds() { return seeds; }, get limits() { return limits; }, get problems() { return problems; },
+  get draft() { return draft; }, get selected() { return selected; },
   get busy() { return sent.size > 0 || frame_wanted; }, measure, command, settings, go_to,
 };

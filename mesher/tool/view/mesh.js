@@ -42,6 +42,7 @@ export class Mesh {
     this.bins = new Uint32Array(this.dimension === 2 ? 60 : 72);  // by degrees of `angle`
     this.octaves = new Uint32Array(kOctaves);  // by whole numbers of `measure`
     this.marked = 0;
+    this.parts = new Map();  // of lines and polygons, as they were asked for
     this.points = new Map();  // of the input: id -> place
     this.take_points(arrays);
     for (let s = 0; s < this.slots; ++s) {
@@ -137,8 +138,47 @@ export class Mesh {
     return out;
   }
 
+  place(vertex) {
+    const d = this.dimension;
+    return Array.from(this.places.subarray(d * vertex, d * vertex + d));
+  }
+
+  // Slots whose number in `owners` is `id`. Found anew after a change, at the cost of all.
+  slots_of(name, owners, id) {
+    const key = name + id;
+    if (!this.parts.has(key)) {
+      const slots = [];
+      for (let s = 0; s < owners.length; ++s) if (owners[s] === id) slots.push(s);
+      this.parts.set(key, slots);
+    }
+    return this.parts.get(key);
+  }
+  // The edges of a line, as pairs of vertices.
+  line_edges(id) {
+    return this.slots_of('line', this.edge_lines, id)
+      .map((e) => [this.edges[2 * e], this.edges[2 * e + 1]]);
+  }
+  // The faces of a polygon, as triples of vertices.
+  polygon_faces(id) {
+    if (this.dimension === 2) return [];
+    return this.slots_of('polygon', this.face_polygons, id)
+      .map((f) => Array.from(this.faces.subarray(3 * f, 3 * f + 3)));
+  }
+  // Edges that one face has alone.
+  static outline_of(faces) {
+    const edges = new Map();
+    for (const face of faces) {
+      for (let k = 0; k < 3; ++k) {
+        const edge = [face[k], face[(k + 1) % 3]].sort((a, b) => a - b);
+        if (!edges.delete(edge.join())) edges.set(edge.join(), edge);
+      }
+    }
+    return Array.from(edges.values());
+  }
+
   // Applies a change. `store` follows: it is told what goes before, and what came after.
   apply(head, arrays, store) {
+    this.parts.clear();
     const n = this.corners, d = this.dimension;
     for (const s of arrays.simplices_removed) {
       if (this.is_kept(s)) this.count(s, -1);

@@ -408,11 +408,22 @@ export class Space {
     return found;
   }
 
-  // How far along an axis a motion on the page goes, for something at `place`.
-  along(place, axis, dx, dy) {
+  // A vector across a polygon, of length 1: exact if the polygon is across an axis.
+  normal_of(polygon) {
+    let best = [0, 0, 0];
+    for (const face of this.mesh.polygon_faces(polygon)) {
+      const [a, b, c] = face.map((v) => this.mesh.place(v));
+      const normal = cross(minus(b, a), minus(c, a));
+      if (dot(normal, normal) > dot(best, best)) best = normal;
+    }
+    return dot(best, best) > 0 ? unit(best) : null;
+  }
+
+  // How far along a direction of length 1 a motion on the page goes, for something at `place`.
+  along(place, direction, dx, dy) {
     const from = this.on_page(place);
     const step = this.camera.distance * this.side * .02;
-    const to = this.on_page(plus(place, [0, 1, 2].map((i) => i === axis ? 1 : 0), step));
+    const to = this.on_page(plus(place, direction, step));
     if (!from || !to) return 0;
     const u = [to[0] - from[0], to[1] - from[1]], squared = u[0] ** 2 + u[1] ** 2;
     if (squared < 1) return 0;  // it points to the eye

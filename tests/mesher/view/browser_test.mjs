@@ -423,6 +423,164 @@ tests['a fresh run beside an update'] = async () => {
   await server.end();
 };
 
+tests['errors are shown where they are'] = async () => {
+  fs.writeFileSync('errors.poly', SQUARE);
+  const server = await serve('errors.poly');
+  const page = await open(server);
+  await command(page, {do: 'line', through: [[0.2, 0.5], [0.8, 0.5]]});
+  await command(page, {do: 'line', through: [[0.5, 0.6], [0.55, 0.8]]});
+  assert.deepEqual(await mark(page, [0.7, 0.5]), [0, 0, 0, 0]);
+  const [low, high] = await page.evaluate(() => Array.from(window.mesher.mesh.points)
+    .filter(([, p]) => p[0] === 0.5 || p[0] === 0.55).map(([id]) => id));
+  await pull(page, [0.5, 0.6], [0.5, 0.25], 14);
+  const [problem, ...others] = await problems(page);
+  assert.equal(others.length, 0, 'a drag is one error');
+  assert.ok(problem.times > 2, `${problem.times} refusals`);
+  assert.match(problem.text, /crosses/);
+  assert.equal(problem.places.length, 1);
+  assert.equal(await page.evaluate(() => document.querySelectorAll('#errors li').length), 1);
+  assert.match(await page.textContent('#errors li'), /\(\d+ times in a drag\)/);
+  assert.ok((await point(page, low))[1] > 0.5, 'it is where it was not refused');
+  // The lines that it names are red, also where it is not.
+  await page.keyboard.press('Escape');
+  await quiet(page);
+  assert.ok(is_near(await mark(page, [0.7, 0.5]), RED), 'the line that is crossed');
+  const [a, b] = [await point(page, low), await point(page, high)];
+  assert.ok(is_near(await mark(page, a.map((x, i) => 0.3 * x + 0.7 * b[i])), RED), 'the line that crosses');
+  await shot(page, 'drag_error');
+  // Another drag is another error; a click shows the first again.
+  await pull(page, a, [0.5, 0.2], 6);
+  await command(page, {do: 'line', through: [1, [0.3, -0.4]]});
+  const texts = (await problems(page)).map((p) => p.text);
+  assert.equal(texts.length, 3, texts.join('\n'));
+  await page.click('#clear_errors');
+  await quiet(page);
+  assert.deepEqual(await mark(page, [0.7, 0.5]), [0, 0, 0, 0]);
+  // A line that is selected is dragged as a whole.
+  const line = [[0.2, 0.5], [0.8, 0.5]];
+  const ids = await page.evaluate(() => Array.from(window.mesher.mesh.points)
+    .filter(([, p]) => p[1] === 0.5).map(([id]) => id));
+  await click(page, [0.65, 0.5]);
+  await quiet(page);
+  assert.ok(is_near(await mark(page, [0.7, 0.5]), ORANGE), 'it is selected');
+  const {updates} = await state(page);
+  await pull(page, [0.65, 0.5], [0.6, 0.3]);
+  const moved = [await point(page, ids[0]), await point(page, ids[1])];
+  assert.ok(Math.abs(moved[0][0] - 0.15) < 0.01 && Math.abs(moved[0][1] - 0.3) < 0.01, String(moved));
+  assert.ok(Math.abs(moved[1][0] - moved[0][0] - 0.6) < 1e-12 && moved[0][1] === moved[1][1]);
+  assert.equal((await state(page)).updates, updates + 1);
+  assert.ok(is_near(await mark(page, [0.7, moved[0][1]]), ORANGE), 'what is selected follows');
+  await command(page, {do: 'undo'});
+  assert.deepEqual([await point(page, ids[0]), await point(page, ids[1])], line);
+  await page.close();
+  await server.end();
+};
+
+tests['in space: a face and a line moved along an axis'] = async () => {
+  execFileSync(tool, ['gen', 'cube', '-o', 'faces.poly']);
+  const domain = ['--domain', '-1', '-1', '-1', '2', '2', '2'];
+  const server = await serve('faces.poly', ...domain);
+  const page = await open(server, {width: 1280, height: 1000});
+  await page.click('#cut');
+  await quiet(page);
+  const points = () => page.evaluate(() => Array.from(window.mesher.mesh.points).sort((a, b) => a[0] - b[0]));
+  const before = await points();
+  const selected = () => page.evaluate(() => window.mesher.selected);
+  const same_mesh = async () => {
+    await page.click('#fresh');
+    await until('a fresh run', () => page.evaluate(() =>
+      document.getElementById('fresh_result').textContent.includes('the same mesh')));
+    await page.evaluate(() => { document.getElementById('fresh_result').textContent = ''; });
+  };
+
+  // The upper face is selected, and moved along its normal.
+  const middle = [0.53, 0.46, 1];
+  assert.deepEqual(await mark(page, middle), [0, 0, 0, 0]);
+  await click(page, middle);
+  await quiet(page);
+  assert.equal((await selected())[0], 'polygon');
+  const faint = await mark(page, middle);
+  assert.ok(is_near(faint, ORANGE) && faint[3] > 50 && faint[3] < 120, String(faint));
+  assert.ok(is_near(await mark(page, [0, 0.5, 1]), ORANGE), 'its outline');
+  assert.deepEqual(await mark(page, [0.5, 0, 0.5]), [0, 0, 0, 0], 'no other face');
+  await shot(page, 'face_selected');
+  await pull(page, middle, [0.53, 0.46, 1.3]);
+  const after = await points();
+  const height = after.find(([, p]) => p[2] > 1)[1][2];
+  assert.ok(Math.abs(height - 1.3) < 0.03, String(height));
+  assert.deepEqual(after, before.map(([id, [x, y, z]]) => [id, [x, y, z === 1 ? height : z]]));
+  assert.equal((await state(page)).updates, 1, 'it is one update');
+  assert.deepEqual(await problems(page), []);
+  await same_mesh();
+  await shot(page, 'face_moved');
+  await page.keyboard.press('Control+z');
+  await until('undo', async () => (await state(page)).updates === 2);
+  assert.deepEqual(await points(), before);
+  assert.equal((await state(page)).undo, 0);
+  await page.keyboard.press('Control+y');
+  await until('redo', async () => (await state(page)).updates === 3);
+  assert.deepEqual(await points(), after);
+
+  // Along another axis: its neighbours are sheared, and stay flat.
+  await page.keyboard.press('x');
+  const upper = [0.53, 0.46, height];
+  await pull(page, upper, [0.73, 0.46, height]);
+  const sheared = await points();
+  const by = sheared.find(([, p]) => p[2] === height)[1][0];
+  assert.ok(Math.abs(by - 0.2) < 0.03 || Math.abs(by - 1.2) < 0.03, String(by));
+  await same_mesh();
+  await page.keyboard.press('n');
+
+  // A line inside; then the face through it, which is refused, and told where.
+  await page.keyboard.press('Escape');
+  await command(page, {do: 'line', through: [[0.5, 0.5, 0.3], [0.5, 0.5, 0.6]]});
+  await click(page, [0.5, 0.5, 0.45]);
+  await quiet(page);
+  assert.equal((await selected())[0], 'line');
+  assert.ok(is_near(await mark(page, [0.5, 0.5, 0.4]), ORANGE), 'the line');
+  await page.keyboard.press('z');
+  await pull(page, [0.5, 0.5, 0.45], [0.5, 0.5, 0.55]);
+  const line = (await points()).slice(-2).map(([, p]) => p);
+  assert.ok(Math.abs(line[0][2] - 0.4) < 0.02, String(line));
+  assert.ok(Math.abs(line[1][2] - line[0][2] - 0.3) < 1e-12 && line[0][0] === 0.5);
+  await same_mesh();
+  await page.keyboard.press('Escape');
+  await click(page, upper);
+  await quiet(page);
+  const held = await state(page);
+  await pull(page, upper, [upper[0], upper[1], 0.55], 6);
+  const [problem, ...others] = await problems(page);
+  assert.match(problem.text, /goes through/);
+  assert.equal(others.length, 0);
+  assert.ok(Math.abs(problem.places[0][0] - 0.5) < 1e-9 && problem.places[0][2] > line[0][2] &&
+    problem.places[0][2] < line[1][2], String(problem.places));
+  assert.deepEqual(problem.features.map(([kind]) => kind).sort(), ['line', 'polygon']);
+  assert.ok((await state(page)).updates <= held.updates + 1);
+  await page.keyboard.press('Escape');
+  await quiet(page);
+  assert.ok(is_near(await mark(page, line[1].map((x, i) => i === 2 ? x - 0.02 : x)), RED));
+  await shot(page, 'face_refused');
+  await page.click('#clear_errors');
+  await same_mesh();
+
+  // One corner alone would bend the faces: the corner that is off is told.
+  const corner = (await points()).find(([, p]) => p[2] === 0)[0];
+  await command(page, {do: 'drag', point: corner, at: [-0.2, -0.3, -0.4], drop: true});
+  const [bent] = await problems(page);
+  assert.match(bent.text, /is not flat/);
+  assert.equal(bent.places.length, 1);
+  assert.equal(bent.features[0][0], 'polygon');
+  await page.click('#clear_errors');
+
+  const script = await saved(page, '#save_script');
+  assert.match(String(script), /begin\n(move .*\n){4}commit\n/);
+  fs.writeFileSync('faces.txt', script);
+  execFileSync(tool, ['edit', 'faces.poly', ...domain, '--script', 'faces.txt', '-o', 'faces.vtu', '--quiet']);
+  assert.deepEqual(await saved(page, '#save'), fs.readFileSync('faces.vtu'));
+  await page.close();
+  await server.end();
+};
+
 tests['the calls of an update'] = async () => {
   fs.writeFileSync('calls.poly', SQUARE);
   const server = await serve('calls.poly');
