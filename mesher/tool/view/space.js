@@ -8,7 +8,8 @@ import {FREE} from './mesh.js';
 
 const NONE = 0xffffffff;
 const kReach = 10;   // pixels
-const kFade = 1200;  // milliseconds
+const kFade = 1200, kGone = 600;  // milliseconds that what came, and what went, is shown
+const kMostGone = 4000;  // faces
 
 const FACES = [`
 in vec3 at, normal; in vec4 judged; in float born;
@@ -30,6 +31,19 @@ ${LINE}
 void main() {
   pixel = vec4(mix(base, vec3(.18, .22, .30), line_at(side, .3, 1., .08) * .7), 1.) * opacity;
 }`];
+
+// Faces that were seen and went; what is as far from the eye does not hide them.
+const GONE = [`
+in vec3 at; in float since;
+uniform mat4 matrix; uniform float now;
+out float strength;
+void main() {
+  gl_Position = matrix * vec4(at, 1.);
+  gl_Position.z -= 1e-3 * gl_Position.w;
+  strength = .3 * clamp(1. - (now - since) / ${kGone}., 0., 1.);
+}`, `
+in float strength; out vec4 pixel;
+void main() { pixel = vec4(.16, .35, .86, 1.) * strength; }`];
 
 const LINES = [`
 in vec3 at; uniform mat4 matrix; uniform float nearer, size;
@@ -59,12 +73,15 @@ export class Space {
     this.settings = settings;  // mode, judge, cut {axis, at} or null, only_marked, all
     const gl = this.gl = canvas.getContext('webgl2', {antialias: true, alpha: false, depth: true});
     if (!gl) throw new Error('this browser has no WebGL 2');
-    this.programs = {faces: make_program(gl, ...FACES), lines: make_program(gl, ...LINES)};
+    this.programs = {faces: make_program(gl, ...FACES), lines: make_program(gl, ...LINES),
+      gone: make_program(gl, ...GONE)};
     this.buffers = {};
-    for (const name of ['faces', 'ghost', 'edges', 'points']) {
+    for (const name of ['faces', 'ghost', 'gone', 'edges', 'points']) {
       this.buffers[name] = {buffer: gl.createBuffer(), count: 0};
     }
     this.born = new Map();
+    this.gone = [];   // faces: {places: nine numbers of the buffers, since}
+    this.seen = null; // by slot: bits of the faces that are drawn
     this.camera = null;
   }
 
@@ -73,13 +90,33 @@ export class Space {
     this.centre = [0, 1, 2].map((i) => (mesh.lo[i] + mesh.hi[i]) / 2);
     this.side = Math.max(...[0, 1, 2].map((i) => mesh.hi[i] - mesh.lo[i]));
     this.born.clear();
+    this.gone = [];
+    this.seen = null;
     if (!this.camera) this.show_all();
     this.stale = true;
   }
-  simplex_goes() { this.stale = true; }
+  simplex_goes(s, stays) {
+    this.stale = true;
+    if (stays) return;
+    if (this.settings.changes && !this.born.has(s)) this.fade(s);
+    this.born.delete(s);
+    if (this.seen && s < this.seen.length) this.seen[s] = 0;  // another one may take the slot
+  }
   simplex_came(s, stays) {
     if (!stays && this.settings.changes) this.born.set(s, performance.now());
     this.stale = true;
+  }
+  // Keeps the faces of a tetrahedron that are drawn.
+  fade(s) {
+    const faces = this.seen && s < this.seen.length ? this.seen[s] : 0;
+    for (let k = 0; k < 4; ++k) {
+      if (!(faces >> k & 1) || this.gone.length >= kMostGone) continue;
+      const places = [];
+      for (let j = 0; j < 4; ++j) {
+        if (j !== k) places.push(...this.inside(this.mesh.place(this.mesh.simplices[4 * s + j])));
+      }
+      this.gone.push({places, since: performance.now()});
+    }
   }
   edge_goes() { this.stale = true; }
   edge_came() { this.stale = true; }
@@ -136,6 +173,8 @@ export class Space {
       }
     }
     this.list = list;
+    this.seen = new Uint8Array(m.slots);
+    for (const face of list) this.seen[face >> 2] |= 1 << (face & 3);
     this.upload_faces('faces', list);
     this.upload_faces('ghost', ghost);
     const lines = [];
@@ -285,9 +324,10 @@ export class Space {
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     this.draw_faces('ghost', now, .10, [.5, .6, .75]);
+    this.draw_gone(now);
     gl.disable(gl.BLEND);
     gl.depthMask(true);
-    return this.born.size > 0;
+    return this.born.size > 0 || this.gone.length > 0;
   }
 
   point_size() {
@@ -316,6 +356,31 @@ export class Space {
       used.push(i);
     }
     gl.drawArrays(gl.TRIANGLES, 0, count);
+    for (const i of used) gl.disableVertexAttribArray(i);
+  }
+
+  draw_gone(now) {
+    this.gone = this.gone.filter((face) => now - face.since < kGone);
+    if (this.gone.length === 0) return;
+    const data = new Float32Array(12 * this.gone.length);
+    this.gone.forEach(({places, since}, i) => {
+      for (let k = 0; k < 3; ++k) {
+        data.set(places.slice(3 * k, 3 * k + 3), 12 * i + 4 * k);
+        data[12 * i + 4 * k + 3] = since;
+      }
+    });
+    this.upload('gone', data, 3 * this.gone.length);
+    const gl = this.gl, at = this.programs.gone;
+    gl.useProgram(at.program);
+    gl.uniformMatrix4fv(at.matrix, false, this.view);
+    gl.uniform1f(at.now, now);
+    const used = [['at', 3, 0], ['since', 1, 12]].map(([name, size, offset]) => {
+      const i = gl.getAttribLocation(at.program, name);
+      gl.enableVertexAttribArray(i);
+      gl.vertexAttribPointer(i, size, gl.FLOAT, false, 16, offset);
+      return i;
+    });
+    gl.drawArrays(gl.TRIANGLES, 0, this.buffers.gone.count);
     for (const i of used) gl.disableVertexAttribArray(i);
   }
 

@@ -476,6 +476,91 @@ tests['errors are shown where they are'] = async () => {
   await server.end();
 };
 
+// The colour at each place right after an update, after half the time of what came, and later.
+const faded = (page, what, places) => page.evaluate(async ([c, all]) => {
+  const {revision} = window.mesher.state;
+  window.mesher.command(c);
+  for (const end = performance.now() + 10000; window.mesher.state.revision === revision;) {
+    if (performance.now() > end) throw new Error('no update: ' + window.mesher.problems[0]?.text);
+    await new Promise((d) => setTimeout(d, 1));
+  }
+  const {view} = window.mesher, gl = view.gl, now = performance.now();
+  return [0, 200, 5000].map((later) => all.map((p) => {
+    view.frame(now + later);
+    const [x, y] = view.on_page(p), out = new Uint8Array(4);
+    gl.readPixels(x * view.ratio, view.height - y * view.ratio, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, out);
+    return Array.from(out.subarray(0, 3));
+  }));
+}, [what, places]);
+// Of [first, later, last].
+function require_fading([first, later, last], came) {
+  const text = [first, later, last].join(' | '), [red, blue] = came ? [2, 0] : [0, 2];
+  assert.ok(first[red] < last[red] - 40, 'it has another colour: ' + text);
+  assert.ok(first[blue] > first[red] + 40, (came ? 'orange: ' : 'blue: ') + text);
+  assert.ok(first[red] + 5 < later[red] && later[red] + 5 < last[red], 'it fades: ' + text);
+}
+
+tests['what came is orange, what went is blue, and both fade'] = async () => {
+  fs.writeFileSync('fading.poly', SQUARE);
+  let server = await serve('fading.poly');
+  let page = await open(server);
+  const column = (all, i) => all.map((row) => row[i]);
+  const corner = {do: 'drag', point: 3, at: [0.8, 0.8], drop: true};
+  // The middle of the largest triangle that it brings.
+  const outlines = () => page.evaluate(() => {
+    const m = window.mesher.mesh, all = [];
+    for (let s = 0; s < m.slots; ++s) if (m.is_kept(s)) all.push([m.measure[s], m.outline(s)]);
+    return all.sort((a, b) => b[0] - a[0]).map(([, outline]) => outline);
+  });
+  const old = new Set((await outlines()).map(String));
+  await command(page, corner);
+  const [p] = (await outlines()).filter((outline) => !old.has(String(outline)));
+  await command(page, {do: 'undo'});
+  await page.waitForTimeout(1500);
+  const new_place = [(p[0] + p[2] + p[4]) / 3, (p[1] + p[3] + p[5]) / 3];
+  const seen = await faded(page, corner, [new_place, [0.95, 0.92]]);
+  require_fading(column(seen, 0), true);
+  require_fading(column(seen, 1), false);
+  await page.click('#changes');
+  await command(page, {do: 'undo'});
+  const plain = await faded(page, corner, [new_place, [0.95, 0.92]]);
+  assert.deepEqual(plain, [seen[2], seen[2], seen[2]], 'not if it is not wanted');
+  await page.close();
+  await server.end();
+
+  execFileSync(tool, ['gen', 'cube', '-o', 'fading_cube.poly']);
+  server = await serve('fading_cube.poly', '--domain', '-1', '-1', '-1', '2', '2', '2');
+  page = await open(server);
+  await page.click('#cut');
+  await quiet(page);
+  // The upper face goes down: behind its far corner there is nothing.
+  const top = await page.evaluate(() => {
+    const m = window.mesher.mesh, f = Array.from(m.face_polygons.keys())
+      .find((i) => [0, 1, 2].every((k) => m.place(m.faces[3 * i + k])[2] === 1));
+    return m.face_polygons[f];
+  });
+  const down = {do: 'drag', feature: ['polygon', top], by: [0, 0, -0.3], drop: true};
+  await command(page, down);
+  const middle = await page.evaluate((id) => {
+    const m = window.mesher.mesh, area = ([a, b, c]) =>
+      Math.abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+    const [f] = m.polygon_faces(id).map((face) => face.map((v) => m.place(v)))
+      .sort((x, y) => area(y) - area(x));
+    return [0, 1, 2].map((i) => (f[0][i] + f[1][i] + f[2][i]) / 3);
+  }, top);
+  await command(page, {do: 'undo'});
+  await page.waitForTimeout(1500);
+  const places = [middle, [0.9, 0.93, 1]];
+  const space = await faded(page, down, places);
+  require_fading(column(space, 0), true);
+  require_fading(column(space, 1), false);
+  await page.click('#changes');
+  await command(page, {do: 'undo'});
+  assert.deepEqual(await faded(page, down, places), [space[2], space[2], space[2]]);
+  await page.close();
+  await server.end();
+};
+
 tests['in space: a face and a line moved along an axis'] = async () => {
   execFileSync(tool, ['gen', 'cube', '-o', 'faces.poly']);
   const domain = ['--domain', '-1', '-1', '-1', '2', '2', '2'];
