@@ -282,7 +282,9 @@ bool VertexIndex<sac::Scope, D>::begin(Cell& cell, const Vertex<D>& v, double ra
     return true;
   }
   cell.reset(v, radius);
-  if (live_ != nullptr) {  // of a tile, in whose first run others ask: it may have later ones, too
+  // Of a tile, in whose first run others ask; it may have later ones, too. (In the plane to walk
+  // there takes longer than to search from nothing.)
+  if (D == 3 && live_ != nullptr) {
     live_->list_near(v, near_);
     for (const VertexHandle u : near_) add_candidate(cell, u);
     return true;
