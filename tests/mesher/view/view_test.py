@@ -2,7 +2,10 @@
 """The server of `mesher view` without a browser: who is let in, what is refused, what pages see,
 what survives a kill.
 
-    view_test.py TOOL DATA SCRATCH [SEED]
+    view_test.py TOOL DATA SCRATCH [SEED [MUTANTS [LIVES]]]
+
+SEED may be `random`. MUTANTS: messages in the plane and as many in space; LIVES: of servers that are
+killed while their journals are compacted.
 """
 
 import http.client
@@ -301,6 +304,110 @@ def refuses_nonsense(seed):
         assert server.process.poll() is None
 
 
+EDITING = {"point", "line", "polygon", "hole", "region", "delete", "drag", "limit", "unlimit", "undo",
+           "redo", "script"}
+
+
+def any_command(rng, d, points):
+    """One of each kind, most of them good."""
+    def place():
+        return [round(rng.uniform(.05, .95), 3) for _ in range(d)]
+    point, box = rng.choice(points), [[0] * d, [.5] * d]
+    commands = [{"do": "point", "at": place(), "marker": 3},
+                {"do": "line", "through": [place(), place()], "marker": 1},
+                {"do": "line", "through": [1, place(), place()], "closed": True},
+                {"do": "hole", "at": place()},
+                {"do": "region", "at": place(), "attribute": 2.5, "largest": .5},
+                {"do": "delete", "features": [["point", point], ["line", rng.randrange(1, 9)]]},
+                {"do": "delete", "features": [["point", point]]},
+                {"do": "drag", "point": point, "at": place(), "drop": True},
+                {"do": "drag", "point": point, "at": place()},
+                {"do": "drag", "feature": ["line", rng.randrange(1, 9)], "by": [.125] * d,
+                 "drop": rng.random() < .5},
+                {"do": "limit", "largest": rng.uniform(.05, 1), "box": box},
+                {"do": "limit", "size": rng.uniform(.3, 1)}, {"do": "unlimit", "box": box},
+                {"do": "undo"}, {"do": "redo"}, {"do": "snapshot"}, {"do": "fresh"},
+                {"do": "calls", "on": rng.random() < .5},
+                {"do": "script", "text": "begin\n+point %d %s\ncommit\n" %
+                 (rng.randrange(50, 99), " ".join(map(str, place())))}]
+    if d == 3:
+        commands += [{"do": "polygon", "through": [place(), place(), place()]},
+                     {"do": "drag", "feature": ["polygon", rng.randrange(1, 9)],
+                      "by": [0, 0, rng.choice([.125, -.125])], "drop": True}]
+    return commands[rng.randrange(len(commands))]
+
+
+def mutated(rng, text):
+    text = bytearray(text)
+    for _ in range(rng.randrange(5)):
+        if not text:
+            break
+        kind, at = rng.randrange(6), rng.randrange(len(text))
+        if kind == 0:
+            text[at] = rng.randrange(256)
+        elif kind == 1:
+            text[at] = rng.randrange(32, 127)
+        elif kind == 2:
+            del text[at:at + rng.randrange(1, 5)]
+        elif kind == 3:
+            text[at:at] = text[rng.randrange(len(text)):][:rng.randrange(12)]
+        elif kind == 4:
+            text[at:at] = rng.choice([b"1e999", b"-", b"null", b"[[[", b"{}", b"9007199254740993",
+                                      b'"', b"\\u0000", b"nan", b"0" * 40])
+        else:
+            del text[at:]
+    return bytes(text)
+
+
+def is_asked(text):
+    """Whether a message is a command that edits."""
+    try:
+        command = json.loads(text.decode())
+    except ValueError:
+        return False
+    name = command.get("do") if isinstance(command, dict) else None
+    return isinstance(name, str) and name in EDITING
+
+
+def survives_mutants(seed, count):
+    """Mutants of all commands: no crash, no edit that was not asked for, and what pages have, a fresh
+    run and the script agree at the end."""
+    for source, d in (("square.poly", 2), ("cube.poly", 3)):
+        rng = random.Random(seed + d)
+        options = ("--domain", *["-1"] * d, *["2"] * d, "--max-vertices", "3000")
+        with Server(TOOL, source, *options, "--journal", f"mutants{d}.journal") as server:
+            client = Client(server)
+            mirror = Mirror(client.snapshot)
+            made = refused = closed = 0
+            for _ in range(count):
+                message = mutated(rng, json.dumps(any_command(rng, d, sorted(mirror.points))).encode())
+                try:
+                    client.send_frame(message)
+                    end, answer = client.send(do="paint"), {}  # is refused, after all else
+                    while answer.get("tag") != end:
+                        answer = client.receive()
+                        if answer["kind"] == "change":
+                            assert is_asked(message), message
+                            mirror.apply(answer)
+                            made += 1
+                        elif answer["kind"] == "snapshot":
+                            assert Mirror(answer).content() == mirror.content(), message
+                        refused += answer["kind"] == "error"
+                except (EOFError, OSError):  # what is not UTF-8
+                    assert server.process.poll() is None, (server.process.returncode, message)
+                    closed += 1
+                    client = Client(server)
+                    mirror = Mirror(client.snapshot)
+            assert made > count / 20 and refused > count, (made, refused, closed)
+            same_as_snapshot(client, mirror)
+            fresh = client.ask(do="fresh")
+            while fresh["kind"] != "fresh" and fresh["kind"] != "error":
+                fresh = client.receive()
+            assert fresh.get("same") is True, fresh
+            require_replayed(server, source, *options, formats=("vtu",))
+            assert server.stop()[0] == 0
+
+
 def random_command(rng, mirror):
     kind = rng.random()
     ids = sorted(mirror.points)
@@ -369,6 +476,56 @@ def survives_kills(seed):
     assert code == 0 and "resumed" in said, said
     edit("square.poly", "--journal", journal, "-o", "resumed.vtu")
     assert contents("resumed.vtu") == contents("replayed.vtu")
+
+
+def compacts_and_survives_kills(seed, lives):
+    """A view with a short journal, which is compacted as it goes on, and killed: it comes back with
+    all that was answered, and its script makes the same mesh."""
+    for source, d in (("square.poly", 2), ("cube.poly", 3)):
+        rng = random.Random(seed + d)
+        journal, updates, folded = f"short{d}.journal", 0, 0
+
+        def place():
+            return [rng.uniform(.05, .95) for _ in range(d)]
+
+        def any_edit(points):
+            loose = [p for p in points if p > 2 ** d]
+            if not loose or rng.random() < .4:
+                return {"do": "point", "at": place()}
+            if len(loose) > 10:
+                return {"do": "delete", "features": [["point", rng.choice(loose)]]}
+            at = place()
+            corners = [at, *([x + (i == k) / 32 for i, x in enumerate(at)] for k in range(2))]
+            return rng.choice([{"do": "drag", "point": rng.choice(loose), "at": at, "drop": True},
+                               {"do": "polygon" if d == 3 else "line", "through": corners},
+                               {"do": "region", "at": at, "attribute": 2},
+                               {"do": "undo"}, {"do": "redo"}])
+
+        content = None
+        for life in range(lives):
+            server = Server(TOOL, source, "--journal", journal, "--journal-limit", "900")
+            client = Client(server)
+            mirror = Mirror(client.snapshot)
+            state = client.snapshot["state"]
+            assert state["updates"] - updates in ((0, 1) if life > 0 else (0,)), (life, state, updates)
+            if life > 0 and state["updates"] == updates:
+                assert mirror.content() == content, f"life {life}"
+            for _ in range(12):
+                client.send(**any_edit(sorted(mirror.points)))
+                end, message = client.send(do="paint"), {}
+                while message.get("tag") != end:
+                    message = client.receive()
+                    if message["kind"] == "change":
+                        mirror.apply(message)
+                    state = message.get("state", state)
+            updates, content = state["updates"], mirror.content()
+            folded += b"# folded" in contents(journal)
+            if life == lives - 1:
+                require_replayed(server, source, formats=("vtu", "obj"))
+            client.send(do="point", at=place())
+            time.sleep(rng.random() * .004)
+            server.kill()
+        assert folded > lives // 2, f"{folded} of {lives} journals were compacted"
 
 
 def tells_of_full_disks():
@@ -841,7 +998,8 @@ def refuses_options():
 def main():
     global TOOL
     TOOL = os.path.abspath(sys.argv[1])
-    seed = int(sys.argv[4]) if len(sys.argv) > 4 else int(time.time())
+    seed, mutants, lives = (sys.argv[4:7] + ["random", "150", "4"][len(sys.argv[4:7]):])
+    seed = int(time.time()) if seed == "random" else int(seed)
     print(f"seed {seed}", flush=True)
     scratch = os.path.join(sys.argv[3], "view_test")
     shutil.rmtree(scratch, ignore_errors=True)
@@ -857,6 +1015,8 @@ def main():
         test()
     refuses_nonsense(seed)
     survives_kills(seed)
+    survives_mutants(seed, int(mutants))
+    compacts_and_survives_kills(seed, int(lives))
     print("ok")
     os.chdir("..")
     shutil.rmtree(scratch)
