@@ -39,10 +39,10 @@ struct Vertex {
   bool committed : 1 = false;  // part of the mesh at the end of the last update,
   VertexKind committed_kind : 2 = VertexKind::steiner;  // as this
   bool changed : 1 = false;                             // listed by next_changed
-  bool on_segment : 1 = false;    // stands for a place on a segment: VertexSearch::role
-  bool feature : 1 = false;       // among the features as an input point
-  bool trial : 1 = false;         // has been asked about, but never was a vertex
-  std::uint8_t held : 5 = 0;      // calls of other tiles that are about it; kMostHeld: too many
+  bool on_segment : 1 = false;  // stands for a place on a segment: VertexSearch::role
+  bool feature : 1 = false;     // among the features as an input point
+  bool trial : 1 = false;       // has been asked about, but never was a vertex
+  std::uint8_t held : 5 = 0;    // calls of other tiles that are about it; kMostHeld: too many
 
   static constexpr std::uint8_t kMostHeld = 31;
 
