@@ -107,23 +107,74 @@ def text_of(batches):
     return text
 
 
+def write_cube(path):
+    corners = ["0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1"]
+    faces = ["1 2 3 4", "5 6 7 8", "1 2 6 5", "2 3 7 6", "3 4 8 7", "4 1 5 8"]
+    write(path, ("8 3 0 0\n" + "".join(f"{i + 1} {p}\n" for i, p in enumerate(corners)) + "6 1\n" +
+                 "".join(f"1 0 {i + 1}\n4 {f}\n" for i, f in enumerate(faces)) + "0\n0\n").encode())
+
+
+def random_space_script(rng, updates):
+    """Batches of edits of that cube: in cells of their own, points come, move and go, and segments and
+    polygons with their points; its lid is moved."""
+    cells = [(x, y, z) for x in range(4) for y in range(4) for z in range(3)]
+    held, new, batches = {}, 100, []  # cell -> what is to go, and a point that may move
+
+    def place(cell, *parts):
+        return " ".join(repr((c + p) / 4) for c, p in zip(cell, parts))
+
+    def any_parts():
+        return [rng.uniform(.25, .75) for _ in range(3)]
+
+    while len(batches) < updates:
+        kind, cell = rng.random(), rng.choice(cells)
+        if kind < 0.1:  # all corners of a face
+            height = 1 + rng.randrange(1, 64) / 128
+            lid = {5: "0 0", 6: "1 0", 7: "1 1", 8: "0 1"}
+            batches.append([f"move {p} {at} {height!r}" for p, at in lid.items()])
+        elif kind < 0.13:
+            batches.append([f"limit size {rng.choice([0.4, 0.5])} in 0 0 0 0.5 0.5 0.5"])
+        elif cell in held:
+            gone, point = held[cell]
+            if point is not None and rng.random() < 0.5:
+                batches.append([f"move {point} {place(cell, *any_parts())}"])
+            else:
+                batches.append(gone)
+                del held[cell]
+        else:
+            new += 10
+            if kind < 0.5:
+                batches.append([f"+point {new} {place(cell, *any_parts())} marker {rng.randrange(3)}"])
+                held[cell] = [f"-point {new}"], new
+                continue
+            corners = [(.25, .25), (.75, .25), (.75, .75), (.25, .75)][:2 if kind < 0.7 else 4]
+            z, ids = rng.uniform(.3, .7), [str(new + i) for i in range(len(corners))]
+            what = "segment" if len(ids) == 2 else "polygon"
+            batches.append([f"+point {i} {place(cell, *at, z)}" for i, at in zip(ids, corners)] +
+                           [f"+{what} {new} {' '.join(ids)} marker {rng.randrange(4)}"])
+            held[cell] = [f"-{what} {new}"] + [f"-point {i}" for i in ids], None
+    return batches
+
+
 class Case:
     """An input, a script, and the bytes after it."""
+
+    BASE = ("edit", "journal_input.node", "--domain", "0", "0", "4", "4")
+    SCRIPT = staticmethod(random_script)
 
     def __init__(self, name, seed, updates):
         self.rng = random.Random(seed)
         self.name = name
         self.script, self.journal = f"{name}.txt", f"{name}.journal"
         self.out, self.wanted = f"{name}.out.vtu", f"{name}.wanted.vtu"
-        self.batches = random_script(self.rng, updates)
+        self.batches = self.SCRIPT(self.rng, updates)
         write(self.script, text_of(self.batches).encode())
         start = time.monotonic()
         run(*self.arguments(self.wanted), check=0)
         self.seconds = time.monotonic() - start
 
     def arguments(self, out, *more):
-        return ("edit", "journal_input.node", "--domain", "0", "0", "4", "4", "--script",
-                self.script, "-o", out, "--quiet", *more)
+        return (*self.BASE, "--script", self.script, "-o", out, "--quiet", *more)
 
     def with_journal(self, *more):
         return self.arguments(self.out, "--journal", self.journal, *more)
@@ -141,8 +192,16 @@ class Case:
             os.remove(part)  # of outputs: a killed process cannot remove them
 
 
+class SpaceCase(Case):
+    """The same with a cube in space."""
+
+    BASE = ("edit", "journal_cube.poly", "--domain", "0", "0", "0", "2", "2", "2")
+    SCRIPT = staticmethod(random_space_script)
+
+
 def killed(case, kills):
-    """Kills at random moments, some of them of one that has resumed; the journal may be compacted."""
+    """Kills at random moments, some of them of one that has resumed; the journal may be compacted.
+    What was resumed has the bytes of the whole script at the end."""
     resumed = 0
     for kill in range(kills):
         if kill and kill % 100 == 0:
@@ -157,8 +216,7 @@ def killed(case, kills):
         if os.path.exists(case.journal):
             resumed += 1
         if case.rng.random() < 0.3:  # what is resumed alone is a prefix of the script
-            run("edit", "journal_input.node", "--domain", "0", "0", "4", "4", "--journal",
-                case.journal, "-o", case.out, "--quiet", check=0)
+            run(*case.BASE, "--journal", case.journal, "-o", case.out, "--quiet", check=0)
         case.require_resumed(*more)
     assert resumed > kills // 4, f"only {resumed} of {kills} kills left a journal"
 
@@ -355,12 +413,7 @@ def compacted():
     write(case.script, (text_of(case.batches[:-1]) + "+point 7777 0.125 0.125\n").encode())
     code, said = run(*case.with_journal())
     assert code == 2 and "does not begin with the 200 updates" in said, said
-    cube = {1: "0 0 0", 2: "1 0 0", 3: "1 1 0", 4: "0 1 0", 5: "0 0 1", 6: "1 0 1", 7: "1 1 1",
-            8: "0 1 1"}
-    faces = ["1 2 3 4", "5 6 7 8", "1 2 6 5", "2 3 7 6", "3 4 8 7", "4 1 5 8"]
-    write("cube.poly", ("8 3 0 0\n" + "".join(f"{i} {p}\n" for i, p in cube.items()) + "6 1\n" +
-                        "".join(f"1 0 {i + 1}\n4 {f}\n" for i, f in enumerate(faces)) +
-                        "0\n0\n").encode())
+    write_cube("cube.poly")
     write("cube.txt", b"""-polygon 2
 +point 9 0.5 0.5 0.5 marker 6
 +polygon 2 5 6 7 8 marker 12
@@ -408,7 +461,9 @@ def main():
         refused()
         backgrounds()
         compacted()
+    write_cube("journal_cube.poly")
     killed(Case("killed", seed, 120), kills)
+    killed(SpaceCase("killed_in_space", seed + 3, 40), kills // 3)
     full_disk(Case("disk", seed + 1, 60), disks)
     made = full_tmpfs(Case("tmpfs", seed + 2, 200), disks)
     print("ok" if made else "ok, without a disk of its own")
