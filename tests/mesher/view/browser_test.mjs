@@ -565,7 +565,7 @@ tests['in space: a face and a line moved along an axis'] = async () => {
   execFileSync(tool, ['gen', 'cube', '-o', 'faces.poly']);
   const domain = ['--domain', '-1', '-1', '-1', '2', '2', '2'];
   const server = await serve('faces.poly', ...domain);
-  const page = await open(server, {width: 1280, height: 1000});
+  const page = await open(server);
   await page.click('#cut');
   await quiet(page);
   const points = () => page.evaluate(() => Array.from(window.mesher.mesh.points).sort((a, b) => a[0] - b[0]));
@@ -679,6 +679,15 @@ tests['the calls of an update'] = async () => {
     document.getElementById('calls_picture').naturalWidth > 100));
   await page.evaluate(() => document.getElementById('calls_picture').scrollIntoView());
   await shot(page, 'calls');
+  // A click opens it at full size, with labels.
+  const small = await page.evaluate(() => document.getElementById('calls_picture').clientWidth);
+  const [large] = await Promise.all([page.waitForEvent('popup'), page.click('#calls_picture')]);
+  await large.waitForLoadState();
+  assert.ok(await large.evaluate(() => document.documentElement.getBoundingClientRect().width) >
+    2 * small);
+  assert.ok(await large.evaluate(() => document.querySelectorAll('title').length) > 10);
+  await shot(large, 'calls_large');
+  await large.close();
   await page.close();
   await server.end();
 };
@@ -1007,7 +1016,14 @@ tests['a mesh of 10^4 triangles follows a drag'] = async () => {
 if (process.env.FIGURES) {
   tests['figures: 10^5 and 10^6 triangles'] = async () => {
     await figures(31500, 'uniform_5.node');
-    await figures(315000, 'uniform_6.node');
+    for (const {updates, zoom} of await figures(315000, 'uniform_6.node')) {
+      assert.ok(updates >= 30, `${updates} updates a second at zoom ${zoom}`);
+    }
+  };
+  tests['figures: 10^6 points'] = async () => {
+    for (const {updates, zoom} of await figures(1000000, 'uniform_7.node')) {
+      assert.ok(updates >= 30, `${updates} updates a second at zoom ${zoom}`);
+    }
   };
 }
 
