@@ -553,11 +553,13 @@ std::span<const std::uint32_t> VertexIndex<sac::Scope, D>::ring(const Vertex<D>&
 }
 
 template <int D>
-void VertexIndex<sac::Scope, D>::keep_triangulation() requires(D <= 3) {
-  kept_ = live_ != nullptr ? std::make_unique<KeptTriangulation<D>>(*live_)
-                           : std::make_unique<KeptTriangulation<D>>(pool_, live_vertices());
-  keeps_ = true;
-  live_.reset();
+void VertexIndex<sac::Scope, D>::keep_triangulation() {
+  if constexpr (D <= 3) {
+    kept_ = live_ != nullptr ? std::make_unique<KeptTriangulation<D>>(*live_)
+                             : std::make_unique<KeptTriangulation<D>>(pool_, live_vertices());
+    keeps_ = true;
+    live_.reset();
+  }
 }
 
 template <int D>

@@ -226,8 +226,9 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   /// v's star, as its cell was written down by the call that looked at it; nothing if none did.
   [[nodiscard]] std::span<const std::uint32_t> ring(const Vertex<D>& v) const;
 
-  /// Ends a first run: from here on the triangulation is kept. Requires: all vertices are there.
-  void keep_triangulation() requires(D <= 3);
+  /// Ends a first run: from here on the triangulation is kept, but not beyond space. Requires:
+  /// all vertices are there.
+  void keep_triangulation();
   /// In an update: makes it that of the vertices that there are now, if it is kept.
   /// Cost: O(simplices that come and go). Throws: std::bad_alloc.
   void follow();
