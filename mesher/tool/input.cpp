@@ -116,6 +116,13 @@ Input<3>::Input(const std::string& path, Faces faces, mesher::CoincidingPoints c
         {path});
   }
   file_ = mesher::read<3>(path, {.coinciding = coinciding, .points_alone = !has_features_});
+  const bool has_lines = !file_.graph.segments.empty() || !file_.graph.polylines.empty();
+  if (has_features_ && !is_complex(path) && file_.graph.polygons.empty() && !has_lines) {
+    throw Error(ErrorCode::bad_option,
+                "--surface: the file has " + std::to_string(file_.graph.points.size()) +
+                    " points and no faces; is it complete?",
+                {path});
+  }
   if (faces == Faces::merged) file_ = with_merged_polygons(file_);
 }
 

@@ -155,6 +155,11 @@ expect 0 '' mesh hollow.obj --merge --quiet --static -o n.node
 same n.ele o.ele
 refuse 2 'two.node: error[bad_option]: --surface is for .off, .obj, .ply, .stl, .vtu' mesh two.node \
   --surface -o out/x.vtu
+grep '^v ' hollow.obj >points.obj
+for option in --surface --merge; do
+  refuse 2 'points.obj: error[bad_option]: --surface: the file has 47 points and no faces' mesh \
+    points.obj $option --repair -o out/x.vtu
+done
 refuse 2 'error[bad_option]: --surface and --merge are for space' mesh hollow.off --surface --dim 2 \
   -o out/x.vtu
 printf '3 2\n1 0 0\n2 1 0\n3 0 1\n' >flat.node

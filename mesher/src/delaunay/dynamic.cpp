@@ -162,11 +162,10 @@ class DynamicDelaunay<D>::State {
     }
   }
   void build_all() {
-    std::vector<Point<D>> places;
     std::vector<std::uint32_t> vertices;
-    for (const auto& [p, v] : flat_.vertices) places.push_back(p), vertices.push_back(v);
-    std::vector<std::uint32_t> order = detail::spatial_order<D>(places);
-    for (std::uint32_t& i : order) i = vertices[i];
+    for (const auto& [p, v] : flat_.vertices) vertices.push_back(v);
+    const std::vector<std::uint32_t> order =
+        detail::in_spatial_order<D>(vertices, [&](std::uint32_t v) { return kernel_.place(v); });
     detail::build<D>(kernel_, order, [](std::uint32_t, std::uint32_t) {});
   }
 

@@ -142,6 +142,13 @@ class DelaunayKernel {
            store_.bytes() + mark_.capacity();
   }
   [[nodiscard]] bool is_ghost(std::uint32_t s) const noexcept;
+  /// Calls visit(s) for each simplex that is no ghost. Requires: visit does not change the kernel.
+  template <class Visit>
+  void for_each_finite(Visit&& visit) const {
+    for (std::uint32_t s = 0; s < store_.places(); ++s) {
+      if (store_.alive(s) && !is_ghost(s)) visit(s);
+    }
+  }
   /// A simplex with corner v. Requires: has(v).
   [[nodiscard]] std::uint32_t simplex_at(std::uint32_t v) const noexcept {
     return vertices_[v].simplex;

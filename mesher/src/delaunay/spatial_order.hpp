@@ -22,4 +22,16 @@ namespace mesher::detail {
 template <int D>
 [[nodiscard]] std::vector<std::uint32_t> spatial_order(std::span<const Point<D>> points);
 
+/// These names, in the order of their places.
+template <int D, class PlaceOf>
+[[nodiscard]] std::vector<std::uint32_t> in_spatial_order(const std::vector<std::uint32_t>& names,
+                                                          PlaceOf&& place_of) {
+  std::vector<Point<D>> places;
+  places.reserve(names.size());
+  for (const std::uint32_t name : names) places.push_back(place_of(name));
+  std::vector<std::uint32_t> order = spatial_order<D>(places);
+  for (std::uint32_t& i : order) i = names[i];
+  return order;
+}
+
 }  // namespace mesher::detail

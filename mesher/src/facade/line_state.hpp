@@ -74,18 +74,6 @@ class LineState : public PointState<D>, protected NamesOf<D> {
   std::vector<Part> noted_;
 };
 
-/// What has come less what has gone, and the other way round.
-template <class T>
-void report_difference(std::vector<T> come, std::vector<T> gone, std::vector<T>& added,
-                       std::vector<T>& removed) {
-  std::sort(come.begin(), come.end());
-  std::sort(gone.begin(), gone.end());
-  std::set_difference(come.begin(), come.end(), gone.begin(), gone.end(),
-                      std::back_inserter(added));
-  std::set_difference(gone.begin(), gone.end(), come.begin(), come.end(),
-                      std::back_inserter(removed));
-}
-
 /// The edge between two places, as a Change has it.
 template <std::size_t D>
 [[nodiscard]] mesher::LineEdge<static_cast<int>(D)> edge_between(const std::array<double, D>& p,

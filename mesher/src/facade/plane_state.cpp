@@ -8,6 +8,7 @@
 #include "plane/require_planar.hpp"
 #include "program/world_impl.hpp"
 #include "sets/make_set.hpp"
+#include "sets/report_difference.hpp"
 
 namespace mesher::detail {
 

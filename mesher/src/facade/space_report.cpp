@@ -13,6 +13,7 @@
 #include "program/triangulate.hpp"
 #include "program/world_impl.hpp"
 #include "sets/make_set.hpp"
+#include "sets/report_difference.hpp"
 #include "space/parts_in_mesh.hpp"
 #include "space/placed.hpp"
 

@@ -7,6 +7,7 @@
 #include "facade/whole_change.hpp"
 #include "program/meter.hpp"
 #include "rules/mesh_box.hpp"
+#include "sets/report_difference.hpp"
 #include "sizes/limits_of.hpp"
 #include "tiles/on_threads.hpp"
 
@@ -299,14 +300,8 @@ Change<D> TiledState<D>::change_of(TileChanges& changes) const {
       change.kinds_changed.push_back({p, *fate.before, *fate.now});
     }
   }
-  std::sort(changes.simplices_come.begin(), changes.simplices_come.end());
-  std::sort(changes.simplices_gone.begin(), changes.simplices_gone.end());
-  std::set_difference(changes.simplices_come.begin(), changes.simplices_come.end(),
-                      changes.simplices_gone.begin(), changes.simplices_gone.end(),
-                      std::back_inserter(change.simplices_added));
-  std::set_difference(changes.simplices_gone.begin(), changes.simplices_gone.end(),
-                      changes.simplices_come.begin(), changes.simplices_come.end(),
-                      std::back_inserter(change.simplices_removed));
+  report_difference(changes.simplices_come, changes.simplices_gone, change.simplices_added,
+                    change.simplices_removed);
   return change;
 }
 

@@ -2,8 +2,6 @@
 #include "index/kept_triangulation.hpp"
 
 #include <algorithm>
-#include <iterator>
-#include <span>
 #include <utility>
 
 #include "delaunay/build.hpp"
@@ -11,6 +9,7 @@
 #include "delaunay/spatial_order.hpp"
 #include "mesh/canonical.hpp"
 #include "sac/check.hpp"
+#include "sets/report_difference.hpp"
 
 namespace mesher::detail {
 
@@ -21,25 +20,20 @@ namespace {
 constexpr std::size_t kManyGo = 8;
 
 template <int D>
-void put_in_spatial_order(const VertexPool<D>& pool, std::vector<VertexHandle>& vertices) {
-  std::vector<Point<D>> places;
-  places.reserve(vertices.size());
-  for (const VertexHandle v : vertices) places.push_back(pool[v].p);
-  std::vector<std::uint32_t> order = spatial_order<D>(std::span<const Point<D>>(places));
-  for (std::uint32_t& i : order) i = vertices[i];
-  vertices = std::move(order);
+[[nodiscard]] std::vector<VertexHandle> ordered(const VertexPool<D>& pool,
+                                                const std::vector<VertexHandle>& vertices) {
+  return in_spatial_order<D>(vertices, [&](VertexHandle v) { return pool[v].p; });
 }
 
 template <int D>
 [[nodiscard]] DelaunayKernel<D> triangulation_of(const VertexPool<D>& pool,
-                                                 std::vector<VertexHandle> vertices) {
+                                                 const std::vector<VertexHandle>& vertices) {
   DelaunayKernel<D> kernel;
   kernel.reserve(pool.end_of_handles());
   const Point<D>& any = pool[vertices.front()].p;  // of handles that are no vertices
   while (kernel.places() + 1 < pool.end_of_handles()) static_cast<void>(kernel.add_place(any));
   for (const VertexHandle v : vertices) kernel.set_place(v, pool[v].p);
-  put_in_spatial_order(pool, vertices);
-  const bool built = build<D>(kernel, vertices, [](std::uint32_t, std::uint32_t) {});
+  const bool built = build<D>(kernel, ordered(pool, vertices), [](std::uint32_t, std::uint32_t) {});
   SAC_ENSURES(built);
   static_cast<void>(built);
   return kernel;
@@ -49,23 +43,22 @@ template <int D>
 
 template <int D>
 KeptTriangulation<D>::KeptTriangulation(const VertexPool<D>& pool,
-                                        std::vector<VertexHandle> vertices)
-    : kernel_(triangulation_of(pool, std::move(vertices))) {}
+                                        const std::vector<VertexHandle>& vertices)
+    : kernel_(triangulation_of(pool, vertices)) {}
 
 // Those that go do so after the others have come, and the last first of an order whose first ones
 // are far apart: else stars would grow.
 template <int D>
-void KeptTriangulation<D>::change(const VertexPool<D>& pool, std::vector<VertexHandle> come,
-                                  std::vector<VertexHandle> gone, const Near& near) {
+void KeptTriangulation<D>::change(const VertexPool<D>& pool, const std::vector<VertexHandle>& come,
+                                  const std::vector<VertexHandle>& gone, const Near& near) {
   if (gone.size() * kManyGo > pool.size()) return make_anew(pool, come, gone);
-  put_in_spatial_order(pool, come);
-  put_in_spatial_order(pool, gone);
   VertexHandle last = 0;
-  for (const VertexHandle v : come) {
+  for (const VertexHandle v : ordered(pool, come)) {
     insert(pool[v], near(v, last));
     last = v;
   }
-  for (auto v = gone.rbegin(); v != gone.rend(); ++v) remove(*v);
+  const std::vector<VertexHandle> leave = ordered(pool, gone);
+  for (auto v = leave.rbegin(); v != leave.rend(); ++v) remove(*v);
 }
 
 template <int D>
@@ -80,7 +73,7 @@ void KeptTriangulation<D>::make_anew(const VertexPool<D>& pool,
   std::sort(out.begin(), out.end());
   const auto goes = [&](VertexHandle v) { return std::binary_search(out.begin(), out.end(), v); };
   all.erase(std::remove_if(all.begin(), all.end(), goes), all.end());
-  KeptTriangulation anew(pool, std::move(all));
+  KeptTriangulation anew(pool, all);
   anew.gone_ = std::move(gone_);
   anew.come_ = std::move(come_);
   for_each_simplex([&](const Simplex& s) { anew.gone_.push_back(s); });
@@ -132,13 +125,9 @@ template <int D>
 auto KeptTriangulation<D>::news() -> News {
   for (auto* all : {&gone_, &come_}) {
     for (Simplex& s : *all) s = smallest_first(s);
-    std::sort(all->begin(), all->end());
   }
   News news;
-  std::set_difference(gone_.begin(), gone_.end(), come_.begin(), come_.end(),
-                      std::back_inserter(news.gone));
-  std::set_difference(come_.begin(), come_.end(), gone_.begin(), gone_.end(),
-                      std::back_inserter(news.come));
+  report_difference(come_, gone_, news.come, news.gone);
   return news;
 }
 

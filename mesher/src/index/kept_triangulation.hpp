@@ -33,7 +33,7 @@ class KeptTriangulation {
   using Simplex = std::array<VertexHandle, D + 1>;
 
   /// Of these vertices, which are not all in one plane (on one line). Cost: as in bulk.
-  KeptTriangulation(const VertexPool<D>& pool, std::vector<VertexHandle> vertices);
+  KeptTriangulation(const VertexPool<D>& pool, const std::vector<VertexHandle>& vertices);
   explicit KeptTriangulation(const LiveTriangulation<D>& live) : kernel_(live.kernel()) {}
 
   [[nodiscard]] bool has(VertexHandle v) const noexcept {
@@ -43,8 +43,8 @@ class KeptTriangulation {
   /// is not far to v; `last` has come before it (0: none has). What throws has done a part of it,
   /// and news() is wrong. Cost: O(simplices made and taken out); of all, if many go.
   using Near = std::function<VertexHandle(VertexHandle v, VertexHandle last)>;
-  void change(const VertexPool<D>& pool, std::vector<VertexHandle> come,
-              std::vector<VertexHandle> gone, const Near& near);
+  void change(const VertexPool<D>& pool, const std::vector<VertexHandle>& come,
+              const std::vector<VertexHandle>& gone, const Near& near);
 
   struct News {
     std::vector<Simplex> gone, come;  // ascending
@@ -55,10 +55,7 @@ class KeptTriangulation {
 
   template <class Visit>
   void for_each_simplex(Visit&& visit) const {
-    const auto& simplices = kernel_.simplices();
-    for (std::uint32_t s = 0; s < simplices.places(); ++s) {
-      if (simplices.alive(s) && !kernel_.is_ghost(s)) visit(simplices.corners(s));
-    }
+    kernel_.for_each_finite([&](std::uint32_t s) { visit(kernel_.simplices().corners(s)); });
   }
   /// Calls visit(simplex) for those with corner v, which comes first. Requires: has(v).
   template <class Visit>

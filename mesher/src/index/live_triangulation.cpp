@@ -48,19 +48,16 @@ bool LiveTriangulation<D>::build(const VertexPool<D>& pool, const std::function<
   simplices_.reserve((D == 2 ? 2 : 7) * expected);
   around_.reserve(expected);
   number_.reserve(expected);
-  std::vector<Point<D>> places;
   std::vector<VertexHandle> handles;
-  places.reserve(n);
   handles.reserve(n);
   pool.for_each([&](const Vertex<D>& v) {
     if (which == Of::vertices && !v.alive) return;
-    SAC_EXPECTS(which == Of::vertices || v.self == places.size() + 1);
-    places.push_back(v.p);
+    SAC_EXPECTS(which == Of::vertices || v.self == handles.size() + 1);
     handles.push_back(v.self);
     while (kernel_.places() < v.self) kernel_.add_place(v.p);
   });
-  std::vector<std::uint32_t> order = spatial_order<D>(places);
-  for (std::uint32_t& i : order) i = handles[i];
+  const std::vector<VertexHandle> order =
+      in_spatial_order<D>(handles, [&](VertexHandle v) { return pool[v].p; });
   std::size_t inserted = 0, made = 0;
   const auto watch = [&] {
     step();

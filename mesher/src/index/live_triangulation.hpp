@@ -76,10 +76,7 @@ class LiveTriangulation {
   /// Calls visit(corners) for each simplex, positively oriented, by handles.
   template <class Visit>
   void for_each_simplex(Visit&& visit) const {
-    const auto& simplices = kernel_.simplices();
-    for (std::uint32_t s = 0; s < simplices.places(); ++s) {
-      if (simplices.alive(s) && !kernel_.is_ghost(s)) visit(simplices.corners(s));
-    }
+    kernel_.for_each_finite([&](std::uint32_t s) { visit(kernel_.simplices().corners(s)); });
   }
 
  private:

@@ -563,7 +563,7 @@ void VertexIndex<sac::Scope, D>::keep_triangulation() {
 }
 
 template <int D>
-void VertexIndex<sac::Scope, D>::follow() {
+void VertexIndex<sac::Scope, D>::follow(const std::vector<VertexHandle>& touched) {
   if constexpr (D <= 3) {
     if (!keeps_) return;
     if (kept_ == nullptr) {
@@ -571,7 +571,7 @@ void VertexIndex<sac::Scope, D>::follow() {
           pool_, vertices_that([](const Vertex<D>& v) { return v.committed; }));
     }
     std::vector<VertexHandle> come, gone;
-    for (const VertexHandle h : log_.touched()) {
+    for (const VertexHandle h : touched) {
       const Vertex<D>& v = pool_[h];
       if (v.alive != kept_->has(h)) (v.alive ? come : gone).push_back(h);
     }
@@ -581,7 +581,7 @@ void VertexIndex<sac::Scope, D>::follow() {
       if (is_beside) return last;
       return nearest_around(pool_[v], [&](VertexHandle u) { return kept_->has(u); }).handle;
     };
-    kept_->change(pool_, std::move(come), std::move(gone), near);
+    kept_->change(pool_, come, gone, near);
     static_cast<void>(take_visited());
   }
 }
@@ -605,7 +605,7 @@ template <int D>
 auto VertexIndex<sac::Scope, D>::log() -> Log {
   Log log{log_.touched(), {}, {}};
   if constexpr (D <= 3) {
-    follow();
+    follow(log.touched);
     if (!keeps_) return log;
     auto news = kept_->news();
     log.simplices_gone = std::move(news.gone);

@@ -231,7 +231,7 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   void keep_triangulation();
   /// In an update: makes it that of the vertices that there are now, if it is kept.
   /// Cost: O(simplices that come and go). Throws: std::bad_alloc.
-  void follow();
+  void follow() { follow(log_.touched()); }
   /// Calls visit(simplex) for each simplex: corners positively oriented. (Where an update has
   /// failed, and memory has run out when the triangulation was put back, another one is made.)
   template <class Visit>
@@ -431,6 +431,7 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
     });
     return all;
   }
+  void follow(const std::vector<VertexHandle>& touched);
   void put_triangulation_back() noexcept;
 
   [[nodiscard]] std::vector<std::uint32_t> canonical_codes(const Observation& o) const;

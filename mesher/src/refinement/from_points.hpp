@@ -35,11 +35,8 @@ inline void require_k(double k) {
 template <int D, class Algorithm>
 [[nodiscard]] Mesh<D> mesh_of(const Algorithm& algorithm, const OnFeatures& on = {}) {
   const auto& kernel = algorithm.kernel();
-  const auto& store = kernel.simplices();
   const auto for_each_simplex = [&](auto&& visit) {
-    for (std::uint32_t s = 0; s < store.places(); ++s) {
-      if (store.alive(s) && !kernel.is_ghost(s)) visit(store.corners(s));
-    }
+    kernel.for_each_finite([&](std::uint32_t s) { visit(kernel.simplices().corners(s)); });
   };
   std::vector<Point<D>> places;
   places.reserve(kernel.places());

@@ -35,10 +35,8 @@ double Growth<D>::least(const Kernel& kernel, std::uint32_t s) const {
 template <int D>
 void Growth<D>::start(const Kernel& kernel) {
   size_.assign(kernel.places() + 1, kAnySize);
-  const auto& simplices = kernel.simplices();
-  for (std::uint32_t s = 0; s < simplices.places(); ++s) {
-    if (!simplices.alive(s) || kernel.is_ghost(s)) continue;
-    const auto& corners = simplices.corners(s);
+  kernel.for_each_finite([&](std::uint32_t s) {
+    const auto& corners = kernel.simplices().corners(s);
     double longest2 = 0;
     for (std::size_t i = 0; i <= D; ++i) {
       for (std::size_t k = 0; k < i; ++k) {
@@ -48,7 +46,7 @@ void Growth<D>::start(const Kernel& kernel) {
     }
     const double longest = std::sqrt(longest2);
     for (const std::uint32_t v : corners) size_[v] = std::min(size_[v], longest);
-  }
+  });
   for (std::uint32_t v = 1; v < size_.size(); ++v) lowered_.push({size_[v], v});
 }
 

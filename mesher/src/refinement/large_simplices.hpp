@@ -79,20 +79,15 @@ template <int D>
 template <class Limit>
 void LargeSimplices<D>::start(Kernel& kernel, Limit&& limit) {
   started_ = true;
-  const auto for_each = [&](auto&& visit) {
-    for (std::uint32_t s = 0; s < kernel.simplices().places(); ++s) {
-      if (kernel.simplices().alive(s) && !kernel.is_ghost(s)) visit(s);
-    }
-  };
   if (growth_.any()) {
     growth_.start(kernel);
-    for_each([&](std::uint32_t s) {
+    kernel.for_each_finite([&](std::uint32_t s) {
       const auto allowed = limit(s, limits_->measure(centroid(corners_of(kernel, s))));
       if (allowed) growth_.bound(kernel, s, size_of(*allowed));
     });
     growth_.spread(kernel, [](std::uint32_t) {});
   }
-  for_each([&](std::uint32_t s) { look_at(kernel, s); });
+  kernel.for_each_finite([&](std::uint32_t s) { look_at(kernel, s); });
 }
 
 template <int D>

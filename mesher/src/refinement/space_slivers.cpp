@@ -29,8 +29,7 @@ void Slivers::start(const Kernel& kernel, const std::vector<VertexKind>& kinds) 
   started_ = true;
   floor2_.assign(kernel.places() + 1, std::numeric_limits<double>::infinity());
   const auto& simplices = kernel.simplices();
-  for (std::uint32_t s = 0; s < simplices.places(); ++s) {
-    if (!simplices.alive(s) || kernel.is_ghost(s)) continue;
+  kernel.for_each_finite([&](std::uint32_t s) {
     const auto& corners = simplices.corners(s);
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t k = 0; k < i; ++k) {
@@ -40,7 +39,7 @@ void Slivers::start(const Kernel& kernel, const std::vector<VertexKind>& kinds) 
         }
       }
     }
-  }
+  });
   for (std::uint32_t s = 0; s < simplices.places(); ++s) {
     if (simplices.alive(s)) look_at(kernel, kinds, s);
   }
