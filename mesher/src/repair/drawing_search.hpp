@@ -18,10 +18,6 @@ class DrawingSearch {
   [[nodiscard]] VertexHandle last_point() const {
     return static_cast<VertexHandle>(drawing_.places().size());
   }
-  [[nodiscard]] EdgeHandle last_edge() const {
-    return static_cast<EdgeHandle>(store_.edges().size());
-  }
-  [[nodiscard]] PolygonHandle last_polygon() const { return store_.polygons().last(); }
 
   /// The handles of live edges, or polygons, near a feature, and others; ascending.
   template <class F>
@@ -50,16 +46,16 @@ class DrawingSearch {
       return false;
     });
   }
-  /// Calls visit(feature) for the live ones from a handle on, in their order.
+  /// Calls visit(feature) for the live ones of these.
   template <class Visit>
-  void visit_edges(EdgeHandle from, Visit&& visit) {
-    for (EdgeHandle h = std::max<EdgeHandle>(from, 1); h <= last_edge(); ++h) {
+  void visit_edges(const std::vector<EdgeHandle>& handles, Visit&& visit) {
+    for (const EdgeHandle h : handles) {
       if (store_.edges()[h].alive) visit(store_.edges()[h]);
     }
   }
   template <class Visit>
-  void visit_polygons(PolygonHandle from, Visit&& visit) {
-    for (PolygonHandle h = std::max<PolygonHandle>(from, 1); h <= last_polygon(); ++h) {
+  void visit_polygons(const std::vector<PolygonHandle>& handles, Visit&& visit) {
+    for (const PolygonHandle h : handles) {
       if (store_.polygons()[h].alive) visit(store_.polygons()[h]);
     }
   }

@@ -409,7 +409,7 @@ TEST_CASE("points merge that a mesher would refuse as too close") {
   Graph<2> g;
   g.points = {{id(2), {1, 1}, 0}, {id(1), {1 + near, 1}, 0}, {id(3), {0, 0}, 0}};
   g.points.push_back({id(4), {2, 2}, 0});
-  const Repaired<2> repaired = repair(g, mesher::Box<2>{{0, 0}, {2, 2}});
+  const Repaired<2> repaired = repair(g, {.domain = mesher::Box<2>{{0, 0}, {2, 2}}});
   REQUIRE(repaired.file.graph.points.size() == 3);
   CHECK(repaired.file.graph.points[0].id == id(2));
   CHECK(repaired.deviation == near);
@@ -473,7 +473,7 @@ TEST_CASE("what cannot be repaired is an error with its place") {
   Graph<2> g = two_crossing();
   const auto code = [](const Graph<2>& bad, const std::optional<mesher::Box<2>>& domain = {}) {
     try {
-      (void)repair(bad, domain);
+      (void)repair(bad, {.domain = domain});
     } catch (const mesher::Error& e) {
       return e.code();
     }

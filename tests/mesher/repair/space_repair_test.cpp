@@ -179,7 +179,7 @@ TEST_CASE("what cannot be repaired in space is an error with its place") {
   file.segments = {{5, 1}};
   const auto said = [&](const mesher::GraphFile<3>& f, std::optional<mesher::Box<3>> domain = {}) {
     try {
-      static_cast<void>(repair(f, domain));
+      static_cast<void>(repair(f, {.domain = domain}));
     } catch (const Error& error) {
       return std::string(error.what());
     }
