@@ -686,6 +686,25 @@ def drags_lines_and_polygons():
             {(x, y, 1.5) for x in (0, 1) for y in (0, 1)}
 
 
+def says_where_errors_are():
+    """Also of what is wrong by its ids alone."""
+    for source, cases in (
+            ("square.poly", (({"do": "line", "through": [3, 3]}, "zero_length", [1, 1, 0]),
+                             ({"do": "script", "text": "-point 3"}, "point_in_use", [1, 1, 0]))),
+            ("cube.poly", (({"do": "polygon", "through": [1, [.5, .5, .5], [.25, .5, .75], 1]},
+                            "bad_polygon", "1"),
+                           ({"do": "script", "text": "begin\n+point 40 .5 .25 .125\n"
+                             "+polygon 40 1 40 2 40\ncommit\n"}, "bad_polygon", [.5, .25, .125]),
+                           ({"do": "script", "text": "-point 1"}, "point_in_use", "1")))):
+        with Server(TOOL, source, "--journal", f"where_{source}.journal") as server:
+            client = Client(server)
+            points = Mirror(client.snapshot).points
+            for command, code, place in cases:
+                error = client.ask(**command)
+                assert error.get("code") == code, error
+                assert error["places"] == [list(points[1]) if place == "1" else place], error
+
+
 def draws_calls():
     """On request a picture of the calls that an update ran; of a drag one."""
     with Server(TOOL, "square.poly", "--journal", "calls.journal") as server:
@@ -1009,9 +1028,9 @@ def main():
           b"4 4 1 4\n0\n")
     subprocess.run([TOOL, "gen", "cube", "-o", "cube.poly"], check=True)
     for test in (refuses_strangers, shows_edits_to_all, tells_of_full_disks, follows_in_space,
-                 drags_lines_and_polygons, draws_calls, edits_limits, saves_pictures_of_the_last_update,
-                 comes_back_where_it_was, begins_with_a_script, takes_posted_scripts,
-                 ends_with_its_parent, refuses_options):
+                 drags_lines_and_polygons, says_where_errors_are, draws_calls, edits_limits,
+                 saves_pictures_of_the_last_update, comes_back_where_it_was, begins_with_a_script,
+                 takes_posted_scripts, ends_with_its_parent, refuses_options):
         test()
     refuses_nonsense(seed)
     survives_kills(seed)
