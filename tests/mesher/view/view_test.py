@@ -17,6 +17,7 @@ import socket
 import struct
 import subprocess
 import sys
+import threading
 import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -393,6 +394,8 @@ def survives_mutants(seed, count):
                         elif answer["kind"] == "snapshot":
                             assert Mirror(answer).content() == mirror.content(), message
                         refused += answer["kind"] == "error"
+                except TimeoutError as error:
+                    raise AssertionError(f"no answer: {message}") from error
                 except (EOFError, OSError):  # what is not UTF-8
                     assert server.process.poll() is None, (server.process.returncode, message)
                     closed += 1
@@ -732,6 +735,107 @@ def draws_calls():
         assert client.ask(do="calls", on=3)["kind"] == "error"
 
 
+def stops_on_request():
+    """An update without end: pages are served while it runs, told of it, and may stop it."""
+    endless = {"do": "limit", "size": 1e-5}
+
+    def told(client, kind):
+        client.skips = set()
+        message = client.receive()
+        while message["kind"] != kind:
+            message = client.receive()
+        client.skips = {"busy", "idle"}
+        return message
+
+    def stop():
+        status, said, _ = server.get("stop", method="POST")
+        assert status == 200
+        return said
+
+    with Server(TOOL, "square.poly", "--journal", "endless.journal") as server:
+        client = Client(server)
+        client.send(**endless)
+        for _ in range(12):  # it goes on, also if nothing else happens
+            told(client, "busy")
+        assert stop() == b"stopping\n"
+        assert client.receive()["code"] == "cancelled"
+        same_as_snapshot(client, Mirror(client.snapshot))
+        client.send(**endless)
+        told(client, "busy")
+        assert server.stop()[0] == 0
+    with Server(TOOL, "square.poly", "--journal", "stop.journal") as server:
+        client, other = Client(server), Client(server)
+        mirror = Mirror(client.snapshot)
+        assert stop() == b"nothing is under way\n"
+        tag = client.send(**endless)
+        assert told(client, "busy")["stops"] is False
+        calls = told(other, "busy")["calls"]
+        assert told(other, "busy")["calls"] > calls > 0
+        for headers in ({"Host": "example.org"}, {"Origin": "http://example.org"}):
+            assert server.get("stop", method="POST", headers=headers)[0] == 403
+        # A page that is opened, and what others ask for meanwhile.
+        for page in ("", "app.js", "style.css"):
+            assert server.get(page)[0] == 200, page
+        late = Client(server, joins=False)
+        told(late, "busy")
+        asked = other.send(do="point", at=[.3, .4])
+        replies = []
+        saving = threading.Thread(target=lambda: replies.append(server.get("save/input.txt")))
+        saving.start()
+        lost = Client(server, joins=False)
+        lost.close()
+        time.sleep(.5)
+        assert not replies
+        assert stop() == b"stopping\n"
+        error = client.receive()
+        assert (error.get("code"), error.get("tag")) == ("cancelled", tag), error
+        told(other, "idle")
+        change = other.receive()
+        assert change["kind"] == "change" and change["tag"] == asked, change
+        assert change["state"]["updates"] == 1
+        mirror.apply(client.receive())
+        assert Mirror(late.receive()).content() in (mirror.content(),
+                                                    Mirror(client.snapshot).content())
+        saving.join()
+        assert replies[0][0] == 200 and b"limit none" in replies[0][1], replies
+        same_as_snapshot(client, mirror)
+        # Of a script the batches before stay; one that is posted says so, too.
+        script = "+point 20 .5 .5\nlimit size .00001\n+point 21 .6 .5\n"
+        tag = client.send(do="script", text=script)
+        mirror.apply(client.receive())
+        told(client, "busy")
+        stop()
+        error = client.receive()
+        assert (error.get("code"), error.get("tag")) == ("cancelled", tag), error
+        posting = threading.Thread(target=lambda: replies.append(
+            server.get("edits", method="POST", body="limit size .00001\n")))
+        posting.start()
+        told(client, "busy")
+        stop()
+        posting.join()
+        assert replies[1][0] == 409 and json.loads(replies[1][1])["code"] == "cancelled", replies
+        state = same_as_snapshot(client, mirror)["state"]
+        assert (state["updates"], state["undo"], len(mirror.points)) == (2, 2, 6)
+        # A drag goes on from where it was.
+        mirror.apply(client.ask(do="drag", point=20, at=[.5, .55], drop=True))
+        # A fresh run.
+        mirror.apply(client.ask(do="limit", size=.01))
+        tag = client.send(do="fresh")
+        while stop() != b"stopping\n":
+            pass
+        error = client.receive()
+        while error["kind"] != "error":
+            error = client.receive()
+        assert (error["code"], error["tag"]) == ("cancelled", tag), error
+        assert client.ask(do="fresh")["same"] is True
+        require_replayed(server, "square.poly", formats=("vtu",))
+        # It ends at once while one runs.
+        client.send(**endless)
+        told(client, "busy")
+    edit("square.poly", "--journal", "stop.journal", "-o", "stopped.vtu")
+    assert contents("stopped.vtu") == contents("replayed.vtu")
+
+
 def edits_limits():
     """Limits are given, changed, deleted, undone; also after the server was ended."""
     boxes = {"left": [[0, 0], [.5, 1]], "low": [[0, 0], [1, .25]], "far": [[.75, .75], [1, 1]]}
@@ -1028,9 +1132,9 @@ def main():
           b"4 4 1 4\n0\n")
     subprocess.run([TOOL, "gen", "cube", "-o", "cube.poly"], check=True)
     for test in (refuses_strangers, shows_edits_to_all, tells_of_full_disks, follows_in_space,
-                 drags_lines_and_polygons, says_where_errors_are, draws_calls, edits_limits,
-                 saves_pictures_of_the_last_update, comes_back_where_it_was, begins_with_a_script,
-                 takes_posted_scripts, ends_with_its_parent, refuses_options):
+                 drags_lines_and_polygons, says_where_errors_are, draws_calls, stops_on_request,
+                 edits_limits, saves_pictures_of_the_last_update, comes_back_where_it_was,
+                 begins_with_a_script, takes_posted_scripts, ends_with_its_parent, refuses_options):
         test()
     refuses_nonsense(seed)
     survives_kills(seed)
