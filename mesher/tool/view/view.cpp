@@ -122,10 +122,10 @@ class View {
   View& operator=(const View&) = delete;
 
   [[nodiscard]] view::PageAddress address() const { return server_.address(); }
-  void run(bool with_parent) {
-    const auto parent = platform::parent_number();
+  // `parent`: ends when another process is; nothing: whatever the parent is.
+  void run(const std::optional<std::uint64_t>& parent) {
     server_.run(
-        [=] { return !interrupted() && !(with_parent && platform::parent_number() != parent); });
+        [=] { return !interrupted() && (!parent || platform::parent_number() == *parent); });
     model_->finish(sender(0));
   }
   [[nodiscard]] const Model& model() const { return *model_; }
@@ -242,6 +242,8 @@ std::unique_ptr<View> opened_view(const ViewArguments& args, const JournalArgume
 }
 
 void run_view(const ViewArguments& args) {
+  const auto parent =  // which may end before the mesh is made
+      args.with_parent ? std::optional(platform::parent_number()) : std::nullopt;
   JournalArguments journal = args.journal;
   if (journal.path.empty()) {
     if (args.source != args.input) {
@@ -259,7 +261,7 @@ void run_view(const ViewArguments& args) {
                  args.source.c_str(), view->model().summary().c_str());
   }
   const StopPolitely stop;
-  view->run(args.with_parent);
+  view->run(parent);
 }
 
 }  // namespace

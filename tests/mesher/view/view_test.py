@@ -1073,18 +1073,31 @@ def takes_posted_scripts():
 
 
 def ends_with_its_parent():
-    starter = ("import subprocess, sys\n"
-               "p = subprocess.Popen(sys.argv[1:], stdout=subprocess.PIPE, text=True)\n"
-               "print(p.stdout.readline().strip(), p.pid, flush=True)\n"
-               "sys.stdin.read()\n")
-    parent = subprocess.Popen([sys.executable, "-c", starter, TOOL, "view", "square.poly", "--quiet",
-                               "--journal", "parent.journal", "--with-parent"],
-                              stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-    pid = int(parent.stdout.readline().split()[1])
-    os.kill(pid, 0)
-    parent.kill()
-    parent.communicate()
-    for _ in range(200):
+    """Also if that ends before the page is there."""
+    subprocess.run([TOOL, "gen", "uniform", "--n", "20000", "-o", "slow.node"], check=True)
+    for source, waits, seconds in (("square.poly", True, 10), ("slow.node", False, 60)):
+        starter = ("import subprocess, sys\n"
+                   "p = subprocess.Popen(sys.argv[2:], stdout=subprocess.PIPE if sys.argv[1] == 'True'"
+                   " else subprocess.DEVNULL, text=True)\n"
+                   "if p.stdout: p.stdout.readline()\n"
+                   "print(p.pid, flush=True)\n"
+                   "sys.stdin.read()\n")
+        parent = subprocess.Popen([sys.executable, "-c", starter, str(waits), TOOL, "view", source,
+                                   "--quiet", "--journal", f"{source}.parent", "--with-parent"],
+                                  stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        pid = int(parent.stdout.readline())
+        os.kill(pid, 0)
+        for _ in range(2000):  # the journal is there before the mesh
+            if os.path.exists(f"{source}.parent"):
+                break
+            time.sleep(.005)
+        parent.kill()
+        parent.communicate()
+        require_end(pid, seconds)
+
+
+def require_end(pid, seconds):
+    for _ in range(20 * seconds):
         try:
             os.kill(pid, 0)
             with open(f"/proc/{pid}/stat") as stat:
