@@ -245,12 +245,12 @@ cat >lid.poly <<'END'
 0
 0
 END
-expect 0 '; 2 repairs, which move what is there by at most 0$' repair lid.poly -o lid.0.poly
-expect 0 'repairs, which move what is there by at most 0.001$' repair lid.poly \
+expect 0 '; 2 repairs, which move what is there by at most 0' repair lid.poly -o lid.0.poly
+expect 0 'repairs, which move what is there by at most 0.001' repair lid.poly \
   --repair-tolerance .01 -o lid.1.poly
 expect 0 '' mesh lid.poly --repair --repair-tolerance .01 --quiet -o lid.node
 expect 0 'polygons    ok' check lid.node --input lid.poly --repair --repair-tolerance .01 --rho 2
-expect 2 'error\[bad_option\]: --repair-tolerance -1: must be 0 or more' repair lid.poly \
+expect 2 'error[bad_option]: --repair-tolerance -1: must be 0 or more' repair lid.poly \
   --repair-tolerance -1
 expect 2 'the tolerance of a repair is 1, not from 0 to' repair lid.poly --repair-tolerance 1
 expect 2 'repair-tolerance requires --repair' mesh lid.poly --repair-tolerance 1 -o x.vtu
