@@ -277,8 +277,7 @@ function show_fresh(head) {
 }
 
 function report(head) {
-  // That another one is under way has no tag.
-  if (fresh_tag && (head.tag === fresh_tag || head.tag === undefined)) end_fresh();
+  if (fresh_tag && head.tag === fresh_tag) end_fresh();
   const found = {text: head.text, places: head.places || [], features: head.features || [], times: 1};
   const of = [drag, last_drag].find((d) => d && d.tags.has(head.tag));
   if (of) {  // a drag is refused once, at the last place

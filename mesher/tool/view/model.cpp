@@ -89,7 +89,8 @@ class ModelOf final : public Model {
     });
   }
   std::string snapshot() override;
-  Work command(ClientId client, const std::string& text, const Send& send) override;
+  Work command(ClientId client, const std::string& text, const Send& send,
+               bool runs_fresh) override;
   std::string edit(const std::string& script, const Send& send) override;
   void left(ClientId client, const Send& send) override {
     if (drag_ && drag_->client == client) settle(send);
@@ -328,7 +329,8 @@ std::string ModelOf<D>::edit(const std::string& script, const Send& send) {
 }
 
 template <int D>
-Model::Work ModelOf<D>::command(ClientId client, const std::string& text, const Send& send) {
+Model::Work ModelOf<D>::command(ClientId client, const std::string& text, const Send& send,
+                                bool runs_fresh) {
   Json tag;
   const auto answer = [&](const Json& json) { send({text_of_json(json), false, false}); };
   try {
@@ -349,6 +351,7 @@ Model::Work ModelOf<D>::command(ClientId client, const std::string& text, const 
     } else if (name == "snapshot") {
       send({snapshot(), true, false});
     } else if (name == "fresh") {
+      if (runs_fresh) throw refusal("a fresh run is under way");
       return fresh(tag);
     } else if (name == "calls") {
       watch_calls(command, tag, send);

@@ -77,7 +77,8 @@ class Model {
   /// All of the mesh, as a Message.
   [[nodiscard]] virtual std::string snapshot() = 0;
   /// Does what a page says; mistakes are answered. Gives work that remains.
-  virtual Work command(ClientId client, const std::string& text, const Send& send) = 0;
+  virtual Work command(ClientId client, const std::string& text, const Send& send,
+                       bool runs_fresh) = 0;
   /// A page is gone: what it drags is dropped.
   virtual void left(ClientId client, const Send& send) = 0;
   /// Makes the updates of a script, up to the first that is refused. Gives JSON.

@@ -181,14 +181,9 @@ class View {
   }
 
   void take(Server::ClientId client, const std::string& text) {
-    Model::Work work = attended([&] { return model_->command(client, text, sender(client)); });
+    Model::Work work =
+        attended([&] { return model_->command(client, text, sender(client), running_ > 0); });
     if (!work) return;
-    if (running_ > 0)
-      return server_.send(client,
-                          bytes(R"({"kind":"error","code":"bad_edit",)"
-                                R"("text":"a fresh run is under way",)"
-                                R"("places":[],"features":[]})"),
-                          false);
     ++running_;
     for (auto& thread : threads_) thread.join();  // they are done
     threads_.clear();
