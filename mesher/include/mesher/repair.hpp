@@ -92,7 +92,8 @@ struct Repaired {
                       ///< new points have none
   std::vector<RepairNote<D>> notes;  ///< by kind, then by ids
   double tolerance = 0;              ///< input units: what was made to touch at first
-  /// The largest distance of the new from the old features, and of the old from the new.
+  /// The largest distance of the new from the old features, and of the old from the new, but for
+  /// what is dropped.
   double deviation = 0;
 };
 
@@ -106,7 +107,7 @@ struct RepairOptions {
   /// kDefaultRepairShare of the box's side. At most kLargestRepairShare of it.
   std::optional<double> tolerance{};
 };
-/// What coordinates of seven digits tell apart.
+/// What models with coordinates of six digits tell apart.
 inline constexpr double kDefaultRepairShare = 0x1p-20;
 inline constexpr double kLargestRepairShare = 0x1p-6;
 
@@ -137,10 +138,10 @@ inline constexpr int kRepairRounds = 32;
 // Parts closer than a tolerance are made to touch, where that comes to an end soon: to bend what is
 // there makes other parts touch. What is left is done with a tolerance that is 64 times less, and
 // so on, down to the least one: 2^-42 of the side of the meshing box, and at least 64 units in the
-// last place of the largest coordinate. The box is that of Options::domain. (Where surfaces of
-// seven digits touch, with the least tolerance they cross each other in thousands of lines, at
-// distances and angles that are all rounding; a mesh of that has many times the vertices, and takes
-// as long.)
+// last place of the largest coordinate. The box is that of Options::domain. (Where surfaces whose
+// coordinates were rounded touch, with the least tolerance they cross each other in thousands of
+// lines, at distances and angles that are all rounding; a mesh of that has many times the vertices,
+// and takes as long.)
 //
 // Guarantees:
 //   (1) a Mesher accepts the result, unless angles are too small for doubles: the repair ends with
@@ -182,8 +183,9 @@ inline constexpr int kRepairRounds = 32;
 /// attributes) for a complex that cannot be repaired; Error(bad_option) for a domain that cannot be
 /// meshed, or a tolerance as in the plane; Error(not_flat) for a polygon with holes or more than
 /// 256 corners that is so bent that its edges cross in every view; Error(too_close) if twice
-/// kRepairRounds rounds are not enough, or nearly parallel parts cannot be told apart. Cost: O((n +
-/// c) log L/s) for n edges and c crossings, if polygons are about as large as they are far apart.
+/// kRepairRounds rounds are not enough, or nearly parallel parts cannot be told apart.
+/// Cost: O((n + c) log L/s) for n edges and c crossings, if polygons are about as large as they are
+/// far apart.
 [[nodiscard]] Repaired<3> repair(const GraphFile<3>& file, const RepairOptions<3>& options = {});
 [[nodiscard]] Repaired<3> repair(const Graph<3>& plc, const RepairOptions<3>& options = {});
 

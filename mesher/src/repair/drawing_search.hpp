@@ -1,7 +1,7 @@
 // What is near what in a drawing in space, within the tolerance; and all that has come since.
 #pragma once
 
-#include <algorithm>
+#include <cstdint>
 #include <new>
 #include <vector>
 
@@ -49,18 +49,22 @@ class DrawingSearch {
   /// Calls visit(feature) for the live ones of these.
   template <class Visit>
   void visit_edges(const std::vector<EdgeHandle>& handles, Visit&& visit) {
-    for (const EdgeHandle h : handles) {
-      if (store_.edges()[h].alive) visit(store_.edges()[h]);
-    }
+    visit_live(store_.edges(), handles, visit);
   }
   template <class Visit>
   void visit_polygons(const std::vector<PolygonHandle>& handles, Visit&& visit) {
-    for (const PolygonHandle h : handles) {
-      if (store_.polygons()[h].alive) visit(store_.polygons()[h]);
-    }
+    visit_live(store_.polygons(), handles, visit);
   }
 
  private:
+  template <class Pool, class Visit>
+  static void visit_live(const Pool& pool, const std::vector<std::uint32_t>& handles,
+                         Visit&& visit) {
+    for (const std::uint32_t h : handles) {
+      if (pool[h].alive) visit(pool[h]);
+    }
+  }
+
   Drawing<3>& drawing_;
   FeatureStore& store_;
 };

@@ -226,6 +226,7 @@ Repaired<D> repair_file(GraphFile<D> file, const RepairOptions<D>& options) {
   arrange(file.graph, drawn, drawing, least_tolerance(box));
   Repaired<D> repaired = detail::redraw(file, drawing, drawn);
   repaired.file.graph.names = file.graph.names;
+  repaired.tolerance = tolerance;
   if constexpr (D == 3) require_sound(repaired.file.graph, domain);
   return repaired;
 }

@@ -244,8 +244,8 @@ class Arranging {
         if (!seen.polygons.has(h)) look_at_edge(e, store_.polygons()[h]);
       }
     });
-    if (!change.any())
-      pierce(change);  // what lies on polygons comes first: edges may go through it
+    // What lies on polygons comes first: edges may go through it.
+    if (!change.any()) pierce(change);
     if (change.any()) drawing_.apply(change);
     return change.any();
   }

@@ -243,21 +243,22 @@ void add_block(PlcBuilder& b, double lo, double hi, int n, bool top, std::uint64
       row.push_back({at(i), at(j), (top ? hi : lo) + noise});
     }
   }
-  std::vector<std::vector<Point<3>>> triangles;
+  const auto triangle = [&](const Point<3>& p, const Point<3>& q, const Point<3>& r) {
+    b.polygon({{p, q, r}});
+  };
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
-      triangles.push_back({grid[i][j], grid[i + 1][j], grid[i + 1][j + 1]});
-      triangles.push_back({grid[i][j], grid[i + 1][j + 1], grid[i][j + 1]});
+      triangle(grid[i][j], grid[i + 1][j], grid[i + 1][j + 1]);
+      triangle(grid[i][j], grid[i + 1][j + 1], grid[i][j + 1]);
     }
   }
   const Point<3> apex{2, 2, top ? lo : hi};
   for (int i = 0; i < n; ++i) {
-    triangles.push_back({grid[i][0], grid[i + 1][0], apex});
-    triangles.push_back({grid[i][n], grid[i + 1][n], apex});
-    triangles.push_back({grid[0][i], grid[0][i + 1], apex});
-    triangles.push_back({grid[n][i], grid[n][i + 1], apex});
+    triangle(grid[i][0], grid[i + 1][0], apex);
+    triangle(grid[i][n], grid[i + 1][n], apex);
+    triangle(grid[0][i], grid[0][i + 1], apex);
+    triangle(grid[n][i], grid[n][i + 1], apex);
   }
-  for (const auto& t : triangles) b.polygon({t});
 }
 
 }  // namespace
@@ -283,6 +284,7 @@ TEST_CASE("a tolerance that cannot be is refused") {
   b.polygon({square(0, 0, 0, 4)});
   b.polygon({{{1, 2, -1}, {6, 2, -1}, {6, 2, 1}, {1, 2, 1}}});
   const Graph<3> plc = b.finish();
+  CHECK(repair(plc, {.tolerance = 0.125}).tolerance == 0.125);
   for (const double t : {-1.0, 100.0, std::numeric_limits<double>::quiet_NaN(),
                          std::numeric_limits<double>::infinity()}) {
     REQUIRE_THROWS_WITH(

@@ -123,6 +123,15 @@ void require_points_kept(const Graph<3>& before, const Repaired<3>& r) {
   }
 }
 
+// Without the polygons of which nothing is left: with a large tolerance they may have been long.
+Graph<3> without_dropped(Graph<3> plc, const Repaired<3>& r) {
+  for (const auto& note : r.notes) {
+    if (note.kind != mesher::RepairKind::dropped_polygon) continue;
+    std::erase_if(plc.polygons, [&](const auto& f) { return f.id == note.polygons[0]; });
+  }
+  return plc;
+}
+
 // Whether it could be: what is nearly parallel may be too close. `share`: of the box's longest
 // side, the tolerance.
 bool try_soup(std::uint64_t seed, SoupKind kind, std::size_t parts, double scale,
@@ -145,10 +154,11 @@ bool try_soup(std::uint64_t seed, SoupKind kind, std::size_t parts, double scale
   REQUIRE(again.file.graph == r.file.graph);
   REQUIRE(again.notes.empty());
   REQUIRE(sorted(repair(shuffled(plc, seed), options).file.graph) == sorted(r.file.graph));
-  REQUIRE(r.deviation <= (share > 0 ? 64 : 16) * r.tolerance);
+  REQUIRE(r.deviation <= 16 * r.tolerance);
   if (kind == SoupKind::flat) {
     mesher::SplitMix64 random(seed);
-    const Covered before = covered(plc), after = covered(r.file.graph);
+    const Covered before = covered(share > 0 ? without_dropped(plc, r) : plc);
+    const Covered after = covered(r.file.graph);
     const double most = 16 * r.tolerance;
     require_covered(before, after, most, random);
     require_covered(after, before, most, random);
@@ -176,7 +186,7 @@ TEST_CASE("so are those in which much is nearly in one place, but for a few that
 
 TEST_CASE("with a larger tolerance as well") {
   int refused = 0;
-  for (const double share : {0x1p-20, 0x1p-12}) {
+  for (const double share : {0x1p-20, 0x1p-12, 0x1p-8, 0x1p-6}) {
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
       for (const SoupKind kind : {SoupKind::general, SoupKind::lattice, SoupKind::layers,
                                   SoupKind::flat, SoupKind::near}) {
