@@ -89,6 +89,7 @@ template <class Algorithm, int D, class Checked, class Stats>
 Mesh<D> run(const Checked& checked, const Options<D>& options, const RefinedExtent<D>& extent,
             typename Algorithm::Settings settings, Stats* stats, const RunControl& control) {
   settings.store = &checked.store();
+  if constexpr (D == 3) settings.names = &checked.names();
   settings.thorough = false;
   settings.only_enclosed = extent.only_enclosed;
   settings.holes = extent.holes;

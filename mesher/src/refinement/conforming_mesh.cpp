@@ -21,6 +21,7 @@ ConformingMesh<D>::ConformingMesh(const MeshBox<D>& box, const Settings& setting
                                   std::size_t points)
     : Base(box, settings, points),
       handles_(settings.handles),
+      names_(settings.names),
       conformity_(*settings.store, kernel_),
       only_enclosed_(settings.only_enclosed),
       holes_(settings.holes),
@@ -29,8 +30,12 @@ ConformingMesh<D>::ConformingMesh(const MeshBox<D>& box, const Settings& setting
 template <int D>
 std::uint32_t ConformingMesh<D>::add_place(const Placed& place, VertexKind kind,
                                            VertexHandle point) {
-  if constexpr (D == 2) {
-    if (const std::size_t most = this->full_with(); most != 0) conformity_.fail_too_many(most);
+  if (const std::size_t most = this->full_with(); most != 0) {
+    if constexpr (D == 2) {
+      conformity_.fail_too_many(most);
+    } else {
+      conformity_.fail_too_many(most, names_);
+    }
   }
   const std::uint32_t v = Base::add_place(place.p, kind);
   conformity_.add_vertex(place.role, point);

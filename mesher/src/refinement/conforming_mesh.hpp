@@ -22,6 +22,7 @@ class ConformingMesh : public RefinedMesh<D> {
 
   struct Settings : Base::Settings {
     typename Conforms::Store* store = nullptr;  // the features of the points, by handles
+    const SpaceNames* names = nullptr;          // of these, in space: errors tell them
     std::vector<VertexHandle> handles{};        // those of the points
     bool only_enclosed = false;                 // else all of the box
     std::vector<Point<D>> holes{};
@@ -61,6 +62,7 @@ class ConformingMesh : public RefinedMesh<D> {
   void finish();
 
   std::vector<VertexHandle> handles_;  // of points
+  const SpaceNames* names_;
   Conforms conformity_;
 
  private:

@@ -8,6 +8,7 @@
 #include "geometry/input_point.hpp"
 #include "refinement/conformity_balls.hpp"
 #include "sets/make_set.hpp"
+#include "space/space_budget.hpp"
 
 namespace mesher::detail {
 
@@ -28,6 +29,15 @@ Conformity::Conformity(FeatureStore& store, Kernel& kernel)
   for (Rank f = 1; f < by_rank_.size(); ++f) rank_[polygon(f).self] = f;
   at_edge_ = lists([](const Polygon& f) -> const auto& { return f.all_edges; });
   at_point_ = lists([](const Polygon& f) -> const auto& { return f.points; });
+}
+
+void Conformity::fail_too_many(std::size_t most, const SpaceNames* names) const {
+  PlacesOnFeatures on_features;
+  for (std::uint32_t v = 1; v < vertices_.size(); ++v) {
+    const SegmentHandle on = vertices_[v].role.on;
+    if (on != 0) on_features[on].push_back(kernel_.place(v));
+  }
+  throw too_many_vertices(on_features, names, store_, most);
 }
 
 // --- What vertices are -----------------------------------------------------------------------

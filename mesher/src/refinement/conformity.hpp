@@ -39,6 +39,8 @@
 
 namespace mesher::detail {
 
+class SpaceNames;
+
 /// What is thrown where vertices on features come too close to each other.
 [[nodiscard]] Error too_close_near(const Point<3>& x);
 
@@ -63,6 +65,9 @@ class Conformity : public LineConformity<3, Conformity> {
   [[nodiscard]] bool looks_again();
   /// Throws: Error (too_close: another vertex is there).
   [[noreturn]] void fail_occupied(const Placed& place) const { throw too_close_near(place.p); }
+
+  /// Throws: Error (too_many: beyond `most`, with the ids of the features with most vertices).
+  [[noreturn]] void fail_too_many(std::size_t most, const SpaceNames* names) const;
 
   /// Throws: Error (too_close), unless the tiles of each polygon are all of it. Requires: next()
   /// has returned nothing.

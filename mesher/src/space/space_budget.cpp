@@ -20,12 +20,8 @@ using ByFeature = std::pair<NamedFeature, Places>;
 
 // The segments and polygons with more than one new vertex, by their numbers, most first; of equal
 // ones the smallest id first. What is on an edge counts for a polygon that has it.
-std::vector<ByFeature> features_by_vertices(const VertexSearch<3>& vertices,
+std::vector<ByFeature> features_by_vertices(const PlacesOnFeatures& by_handle,
                                             const SpaceNames& names, const FeatureStore& store) {
-  std::map<SegmentHandle, Places> by_handle;
-  vertices.pool().for_each([&](const Vertex<3>& v) {
-    if (v.alive && v.on_segment) by_handle[vertices.role(v).on].push_back(v.p);
-  });
   std::map<std::pair<std::int64_t, bool>, Places> by_name;  // whether it is a segment
   for (const auto& [on, places] : by_handle) {
     const Role role{{}, on};
@@ -93,11 +89,20 @@ Point<3> densest(Places places) {
 
 Error too_many_vertices(const VertexSearch<3>& vertices, const SpaceNames* names,
                         const FeatureStore& store, std::size_t most) {
+  PlacesOnFeatures on_features;
+  vertices.pool().for_each([&](const Vertex<3>& v) {
+    if (v.alive && v.on_segment) on_features[vertices.role(v).on].push_back(v.p);
+  });
+  return too_many_vertices(on_features, names, store, most);
+}
+
+Error too_many_vertices(const PlacesOnFeatures& on_features, const SpaceNames* names,
+                        const FeatureStore& store, std::size_t most) {
   std::string text = "more than " + std::to_string(most) + " vertices are needed";
   std::vector<mesher::Feature> features;
   Places all;
   if (names != nullptr) {
-    for (const auto& [name, places] : features_by_vertices(vertices, *names, store)) {
+    for (const auto& [name, places] : features_by_vertices(on_features, *names, store)) {
       text += (features.empty() ? "; so far " : " and ") + std::to_string(places.size());
       text += (features.empty() ? " are on " : " on ") + name.text;
       features.push_back(name.feature);

@@ -309,6 +309,18 @@ TEMPLATE_TEST_CASE_SIG("what cannot be meshed is refused", "", ((By B), B), By::
   CHECK(refusal(plc, [](auto& o) { o.max_measure = -1; }) == "bad_option");
   CHECK(refusal(plc, [](auto& o) { o.rule = mesher::Rule::voronoi_aspect; }) == "bad_option");
   CHECK(refusal(plc, [](auto& o) { o.max_vertices = 110; }) == "too_many");
+  Options<3> few = options_for(plc);
+  few.max_measure = 1e-4;
+  few.max_vertices = 500;
+  try {
+    static_cast<void>(mesh_of<B>(plc, few));
+    FAIL("a mesh of more vertices than allowed");
+  } catch (const mesher::Error& e) {
+    INFO(e.what());
+    CHECK(e.code() == mesher::ErrorCode::too_many);
+    CHECK(e.features().size() == 2);
+    CHECK(e.places().size() == 1);
+  }
   Graph<3> bad = plc;
   bad.points[0].at[0] += 0.1;
   CHECK(refusal(bad, same) == "not_flat");
