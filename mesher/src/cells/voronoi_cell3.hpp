@@ -23,6 +23,7 @@
 
 #include "cells/corner_reach.hpp"
 #include "cells/link_record.hpp"
+#include "geometry/circumcentre.hpp"
 #include "geometry/lanes.hpp"
 #include "geometry/space_vectors.hpp"
 #include "mesher/mesh.hpp"
@@ -140,6 +141,11 @@ class VoronoiCell3 : public CornerReach<int> {
                                     std::span<const Code> record, const Point<3>& p) noexcept;
   /// Whether that takes less than a look at memory.
   static constexpr bool kMayCutIsCheap = false;
+  /// Calls visit(centre, radius2), relative to v, for the gap balls of the cell of v that was
+  /// written down, but for those between virtual neighbours alone.
+  template <class Visit>
+  static void visit_gap_balls(const VertexPool<3>& pool, const Vertex<3>& v, double radius,
+                              std::span<const Code> record, Visit&& visit);
 
   /// Throws InvariantError unless the triangles are a sphere around v, and the corners theirs.
   void check_invariants() const;
@@ -293,6 +299,19 @@ void VoronoiCell3::restore(const VertexPool<3>& pool, const Vertex<3>& v, double
     reset(v, radius);
     cut_by_nearest(pool, link.neighbours(), left);
     if (repair) close_known(link);
+  }
+}
+
+template <class Visit>
+void VoronoiCell3::visit_gap_balls(const VertexPool<3>& pool, const Vertex<3>& v, double radius,
+                                   std::span<const Code> record, Visit&& visit) {
+  const LinkRecord link(record);
+  for (std::size_t t = 0; t < link.triangles(); ++t) {
+    const auto [a, b, c] = link.codes(t);
+    if (a >= kVirtual && b >= kVirtual && c >= kVirtual) continue;
+    const auto place = [&](Code code) { return place_of(pool, v.p, radius, code); };
+    const Circumcentre ball = circumcentre(v.p, place(a), place(b), place(c));
+    visit(ball.q, squared(ball.q));
   }
 }
 

@@ -9,6 +9,14 @@
 
 namespace mesher::detail {
 
+/// How far features are apart that cannot be told to be: what rounding of places this far from 0
+/// may do, and the finest cell of a mesh that holds them.
+[[nodiscard]] inline double resolution(const Point<3>& place, double reach) {
+  double most = reach;
+  for (const double x : place) most = std::max(most, std::abs(x) + reach);
+  return most * 0x1p-48;
+}
+
 /// Which part of ab lies before the place of the closed segment nearest to p; 0 if a = b.
 [[nodiscard]] inline double nearest_fraction(const Point<3>& p, const Point<3>& a,
                                              const Point<3>& b) {

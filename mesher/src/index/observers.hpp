@@ -37,7 +37,7 @@ template <int D>
 struct NearestSeen : Observation<D> {
   std::uint32_t nearest;  // 0: none
 };
-/// What a call that sees a cell may have asked of features besides those that meet it.
+/// What a call that sees a cell may have asked of features besides those that meet its star.
 template <int D>
 struct FeaturesAsked {};
 template <>
@@ -48,7 +48,10 @@ struct FeaturesAsked<3> {
 template <int D>
 struct CellSeen : Observation<D>, FeaturesAsked<D> {
   float radius;  // the clip, in units of the box's side
-  std::uint32_t count;
+  std::uint32_t count : 31;
+  // In space: when it was made no feature crossed the star, and the roles of its vertices are what
+  // they were.
+  std::uint32_t is_clear : 1;
 
   [[nodiscard]] std::uint32_t* codes() noexcept {
     return reinterpret_cast<std::uint32_t*>(this + 1);

@@ -2,6 +2,9 @@
 #include "index/vertex_index.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "geometry/space_distances.hpp"
 
 namespace mesher::detail {
 
@@ -136,7 +139,10 @@ void VertexIndex<sac::Scope, D>::take_role(Vertex<D>& v, const Role& now,
   if (engine_.appending()) return;
   const sac::Window later{&producer, nullptr};
   if (v.locator != nullptr) run_again(v.locator, later, nullptr);
-  for_each_cell_with(v, [&](const Observation& o) { run_again(o.call, later, &o); });
+  for_each_cell_with(v, [&](Observation& o) {
+    no_longer_clear(o);
+    run_again(o.call, later, &o);
+  });
 }
 
 template <int D>
@@ -200,12 +206,14 @@ void VertexIndex<sac::Scope, D>::appeared(const Vertex<D>& v, const sac::Window&
   });
 }
 
-// Observations in the window that v bounds.
+// Observations in the window that v bounds. (v may come again, as something else.)
 template <int D>
 void VertexIndex<sac::Scope, D>::vanished(const Vertex<D>& v, const sac::Window& window) noexcept {
-  observers_.for_each_reaching(v.p, [&](const Vertex<D>&, const Observation& o) {
+  observers_.for_each_reaching(v.p, [&](const Vertex<D>& center, Observation& o) {
+    if (center.self == v.self) no_longer_clear(o);
     const auto seen = observers_.neighbours(o);
     if (std::find(seen.begin(), seen.end(), v.self) == seen.end()) return;
+    no_longer_clear(o);
     sac::Call& call = engine_.call(o.call);
     if (window.contains(engine_, call)) engine_.invalidate(call, &o);
   });
@@ -457,13 +465,16 @@ void VertexIndex<sac::Scope, D>::record_cell(sac::Scope& s, Vertex<D>& v, const 
   // If this run of the call asks less of features than the last one, it is told of more than it
   // must be: an update that fails leaves the observation as it was.
   last_cell_ = s.recall<CellSeen>(id_, kind, same);
+  last_is_new_ = last_cell_ == nullptr;
   if (last_cell_ != nullptr) {
     last_cell_->arrivals = 0;
     return;
   }
   last_cell_ = &s.observe<CellSeen>(id_, kind, codes_.size() * sizeof(std::uint32_t));
   last_cell_->radius = radius;
-  last_cell_->count = static_cast<std::uint32_t>(codes_.size());
+  SAC_EXPECTS(codes_.size() < std::size_t{1} << 31);
+  last_cell_->count = static_cast<std::uint32_t>(codes_.size()) & 0x7fffffffu;
+  last_cell_->is_clear = 0;
   std::copy(codes_.begin(), codes_.end(), last_cell_->codes());
   if constexpr (D == 3) last_cell_->features_within = 0;
   fill(s, *last_cell_, v, reach);
@@ -489,6 +500,50 @@ void VertexIndex<sac::Scope, D>::forget(Observation& o) noexcept {
   if (listener_ != nullptr) [[unlikely]]
     listener_->forgot(pool_[o.center], o);
   if (o.kind == kTrial && !pool_[o.center].alive) touch(pool_[o.center]);
+}
+
+// --- In doubt --------------------------------------------------------------------------------
+
+/// A call is in doubt where features have changed as near as the corners of a cell that it saw.
+template <int D>
+bool VertexIndex<sac::Scope, D>::unchanged(sac::Call&, sac::Edge& edge) {
+  if constexpr (D == 3) {
+    if (changed_ == nullptr || is_birth(edge)) return true;
+    const auto& o = static_cast<const Observation&>(edge);
+    return !Observers<D>::is_cell(o) || !star_has_changed_feature(static_cast<const CellSeen&>(o));
+  }
+  return true;
+}
+
+/// Whether a feature that has changed meets the box around the vertices of a star, and the ball of
+/// a simplex; erring towards yes by more than rounding does there (space/star_crossings.hpp).
+template <int D>
+bool VertexIndex<sac::Scope, D>::star_has_changed_feature(const CellSeen& cell) {
+  if constexpr (D == 3) {
+    const Vertex<3>& v = pool_[cell.center];
+    const auto seen = observers_.seen(cell);
+    Box<3> box{v.p, v.p};
+    for (const std::uint32_t code : Cell::neighbours(seen)) {
+      if (code >= Cell::kVirtual) break;
+      const Point<3>& p = pool_[code].p;
+      for (int i = 0; i < 3; ++i) {
+        box.lo[i] = std::min(box.lo[i], p[i]);
+        box.hi[i] = std::max(box.hi[i], p[i]);
+      }
+    }
+    const auto slack = [&](double radius) {
+      return radius * (1 + 0x1p-9) + 0x1p9 * resolution(v.p, 0);
+    };
+    const PlaceBall whole{scaled(0.5, plus(box.lo, box.hi)),
+                          slack(std::sqrt(squared_distance(box.lo, box.hi)) / 2)};
+    balls_.clear();
+    Cell::visit_gap_balls(pool_, v, unpacked(cell.radius), seen,
+                          [&](const Point<3>& middle, double radius2) {
+                            balls_.push_back({plus(v.p, middle), slack(std::sqrt(radius2))});
+                          });
+    return changed_->any_meets(whole, balls_);
+  }
+  return false;
 }
 
 // --- Taking back -----------------------------------------------------------------------------

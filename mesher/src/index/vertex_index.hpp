@@ -40,6 +40,7 @@
 #include <vector>
 
 #include "index/change_log.hpp"
+#include "index/changed_features.hpp"
 #include "index/kept_triangulation.hpp"
 #include "index/live_triangulation.hpp"
 #include "index/look_listener.hpp"
@@ -107,6 +108,8 @@ class VertexIndex<sac::PlainScope, D> : public VertexSearch<D> {
     return !searches() && live_->is_settled(*v, radius);
   }
   void note_asked(double) noexcept {}
+  [[nodiscard]] bool was_clear() const noexcept { return false; }
+  void note_clear(bool) noexcept {}
   double nearest2(sac::PlainScope&, VertexRef<D> v) {
     if (!searches()) return live_->nearest(*v).distance2;
     fill_tree();
@@ -210,16 +213,27 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   }
   /// Records that have only been tried.
   [[nodiscard]] std::size_t trials() const noexcept { return trials_; }
-  /// In space: who has seen the last cell has asked for features within this of its vertex, but not
-  /// beyond VertexSearch::beside.
+  /// In space: who has seen the last cell has asked for the features that meet its star, and for
+  /// those within this of its vertex, but not beyond VertexSearch::beside.
   void note_asked(double distance) noexcept {
     if constexpr (D == 3) {
       last_cell_->features_within = std::max(last_cell_->features_within, in_sides(distance));
     }
   }
+  /// In space: whether the running call saw the last cell as it is before this update, and no
+  /// feature that was there then crosses its star.
+  [[nodiscard]] bool was_clear() const noexcept { return !last_is_new_ && last_cell_->is_clear; }
+  /// Whether no feature crosses the star of the last cell. (An observation from before this update
+  /// does not become clear by it: the update may fail.)
+  void note_clear(bool clear) noexcept {
+    last_cell_->is_clear = clear && (last_is_new_ || last_cell_->is_clear) ? 1 : 0;
+  }
   double nearest2(sac::Scope& s, VertexRef<D> v);
   CellLoan<D> star(sac::Scope& s, VertexRef<D> v);
+  /// In space: who knows which features have changed.
+  void set_changed_features(ChangedFeatures* changed) noexcept { changed_ = changed; }
   void retract(sac::Call& call, sac::Edge& edge) noexcept override;
+  [[nodiscard]] bool unchanged(sac::Call& call, sac::Edge& edge) override;
   void label(const sac::Call& call, const sac::Edge& edge, sac::LabelSink& sink) const override;
   void print(const sac::Call& call, const sac::Edge& edge, std::ostream& out) const override;
 
@@ -292,8 +306,8 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   void limits_changed(const Box<D>& where) noexcept;
 
   /// Called by what makes a feature come or go: who has looked at a cell has asked which features
-  /// are beside it. Of the feature: `distance(x)` from x; `beyond(x, r)` only if it is farther than
-  /// r from x, which is quicker to tell. None throws.
+  /// meet its star, or are beside it. Of the feature: `distance(x)` from x; `beyond(x, r)` only if
+  /// it is farther than r from x, which is quicker to tell. None throws.
   template <class Beyond, class Distance>
   void feature_changed(Beyond&& beyond, Distance&& distance) noexcept {
     tree_.visit_within(Base::kBeside, beyond, [&](const Vertex<D>& center) {
@@ -307,7 +321,11 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
         if (!Observers<D>::is_cell(o)) return false;
         const auto& cell = static_cast<const CellSeen&>(o);
         const double asked = std::min(cell.features_within * box_.side, Base::beside(o.reach));
-        if (is_within(asked)) engine_.invalidate(engine_.call(o.call), &o);
+        if (is_within(asked)) {
+          engine_.invalidate(engine_.call(o.call), &o);
+        } else if (is_within(o.reach.farthest() * box_.side)) {
+          engine_.doubt(engine_.call(o.call));  // its star may have it: unchanged()
+        }
         return false;
       });
     });
@@ -388,6 +406,9 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   void vanished(const Vertex<D>& v, const sac::Window& window) noexcept;
   void retract_birth(BirthEdge& birth) noexcept;
 
+  static void no_longer_clear(Observation& o) noexcept {
+    if (Observers<D>::is_cell(o)) static_cast<CellSeen&>(o).is_clear = 0;
+  }
   // The cells of v, and those that v bounds.
   template <class Visit>
   void for_each_cell_with(const Vertex<D>& v, Visit&& visit) noexcept {
@@ -418,6 +439,7 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
     if (listener_ != nullptr && !looks_across_) [[unlikely]]
       listener_->looked(v, o, radius);
   }
+  [[nodiscard]] bool star_has_changed_feature(const CellSeen& cell);
   template <class Seen>
   bool begin(Cell& cell, const Vertex<D>& v, double radius, Seen& seen);
   [[nodiscard]] const CellSeen* cell_of_producer(const Vertex<D>& v) const noexcept;
@@ -446,10 +468,13 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   std::vector<std::uint32_t> codes_;            // the cell being recorded, written down
   std::vector<VertexHandle> near_;              // who is likely to be near
   CellSeen* last_cell_ = nullptr;               // the last one recorded
+  bool last_is_new_ = false;                    // it is not from before this update
   std::unique_ptr<LiveTriangulation<D>> live_;  // in a first run
   bool keeps_ = false;                          // the triangulation, if there is memory for it
   std::unique_ptr<KeptTriangulation<D>> kept_;  // null: not yet, or it had to be given up
   std::size_t trials_ = 0;
+  ChangedFeatures* changed_ = nullptr;
+  std::vector<PlaceBall> balls_;  // scratch
   LookListener<D>* listener_ = nullptr;
   bool looks_across_ = false;  // while look_across() runs
 };

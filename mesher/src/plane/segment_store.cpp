@@ -20,6 +20,7 @@ template <int D>
 void SegmentStoreOf<D>::touch(Segment& s) noexcept {
   if (s.changed) return;
   s.changed = true;
+  ++changes_;
   s.next_changed = std::exchange(changed_, s.self);
 }
 
@@ -43,12 +44,13 @@ SegmentOf<D>& SegmentStoreOf<D>::record(VertexHandle a, VertexHandle b) {
 
 // The lists at the ends are there, though empty, before anything is put into them.
 template <int D>
-void SegmentStoreOf<D>::put(Segment& s) {
+void SegmentStoreOf<D>::put(Segment& s, bool bounds) {
   SAC_EXPECTS(!s.alive);
+  s.bounds = bounds;
   const TileHandle tile = new_tile(Tile{.segment = s.self});
   try {
     for (const VertexHandle end : {s.a, s.b}) at_.try_emplace(end, 0);
-    tree_.insert(middle(tiles_[tile]), reach(tiles_[tile]), tile);
+    tree_of(s).insert(middle(tiles_[tile]), reach(tiles_[tile]), tile);
   } catch (...) {
     for (const VertexHandle end : {s.a, s.b}) drop_if_empty(end);
     free_tile(tile);
@@ -61,6 +63,24 @@ void SegmentStoreOf<D>::put(Segment& s) {
   s.tile = tile;
   s.alive = true;
   ++live_;
+}
+
+template <int D>
+void SegmentStoreOf<D>::set_free(Segment& s) {
+  SAC_EXPECTS(s.alive);
+  if (!s.bounds) return;
+  auto& [free, sides] = trees_;
+  TileHandle put = s.tile;
+  try {
+    for (; put != 0; put = tiles_[put].next) {
+      free.insert(middle(tiles_[put]), reach(tiles_[put]), put);
+    }
+  } catch (...) {
+    for (TileHandle t = s.tile; t != put; t = tiles_[t].next) free.erase(middle(tiles_[t]), t);
+    throw;
+  }
+  for (TileHandle t = s.tile; t != 0; t = tiles_[t].next) sides.erase(middle(tiles_[t]), t);
+  s.bounds = false;
 }
 
 template <int D>
@@ -84,7 +104,7 @@ void SegmentStoreOf<D>::take(Segment& s) noexcept {
   leave(s, s.b);
   for (TileHandle t = std::exchange(s.tile, 0); t != 0;) {
     const TileHandle next = tiles_[t].next;
-    tree_.erase(middle(tiles_[t]), t);
+    tree_of(s).erase(middle(tiles_[t]), t);
     free_tile(t);
     t = next;
   }
@@ -147,35 +167,36 @@ bool SegmentStoreOf<D>::is_needless(const Tile& t, const Point<D>& p, const Poin
 template <int D>
 void SegmentStoreOf<D>::halve(TileHandle t) {
   const Tile old = tiles_[t];
+  ReachTree<TileHandle, D>& tree = tree_of(pool_[old.segment]);
   const double cut = old.lo + (old.hi - old.lo) / 2;
   const Tile lower{old.segment, old.next, old.lo, cut};
   const TileHandle u = new_tile(Tile{old.segment, old.next, cut, old.hi});
   try {
-    tree_.insert(middle(tiles_[u]), reach(tiles_[u]), u);
+    tree.insert(middle(tiles_[u]), reach(tiles_[u]), u);
     try {
-      tree_.insert(middle(lower), reach(lower), t);
+      tree.insert(middle(lower), reach(lower), t);
     } catch (...) {
-      tree_.erase(middle(tiles_[u]), u);
+      tree.erase(middle(tiles_[u]), u);
       throw;
     }
   } catch (...) {
     free_tile(u);
     throw;
   }
-  tree_.erase(middle(old), t);
+  tree.erase(middle(old), t);
   tiles_[t] = lower;
   tiles_[t].next = u;
 }
 
 template <int D>
 std::size_t SegmentStoreOf<D>::bytes() const noexcept {
-  return pool_.bytes() + tiles_.capacity() * sizeof(Tile) + tree_.bytes() + by_ends_.bytes() +
-         at_.bucket_count() * 3 * sizeof(VertexHandle);
+  return pool_.bytes() + tiles_.capacity() * sizeof(Tile) + trees_[0].bytes() + trees_[1].bytes() +
+         by_ends_.bytes() + at_.bucket_count() * 3 * sizeof(VertexHandle);
 }
 
 template <int D>
 void SegmentStoreOf<D>::check_invariants() const {
-  tree_.check_invariants();
+  for (const auto& tree : trees_) tree.check_invariants();
   std::size_t records = 0, live = 0, tiles = 0, ends = 0;
   pool_.for_each([&](const Segment& s) {
     ++records;
@@ -200,7 +221,7 @@ void SegmentStoreOf<D>::check_invariants() const {
     });
   }
   SAC_INVARIANT(records == by_ends_.size() && live == live_ && ends == 2 * live);
-  SAC_INVARIANT(tiles == tree_.size());
+  SAC_INVARIANT(tiles == trees_[0].size() + trees_[1].size());
 }
 
 template class SegmentStoreOf<2>;

@@ -29,7 +29,11 @@ class SegmentStoreOf {
   using Segment = SegmentOf<D>;
 
   SegmentStoreOf(const MeshBox<D>& box, const VertexPool<D>& points)
-      : box_(box), points_(points), by_ends_(*this), tiles_(1), tree_(box) {}
+      : box_(box),
+        points_(points),
+        by_ends_(*this),
+        tiles_(1),
+        trees_{ReachTree<TileHandle, D>(box), ReachTree<TileHandle, D>(box)} {}
   SegmentStoreOf(const SegmentStoreOf&) = delete;
   SegmentStoreOf& operator=(const SegmentStoreOf&) = delete;
 
@@ -46,8 +50,12 @@ class SegmentStoreOf {
   /// nothing.
   [[nodiscard]] Segment& record(VertexHandle a, VertexHandle b);
 
-  /// Makes s live. Throws: std::bad_alloc, and then changes nothing. Cost: O(log L/s).
-  void put(Segment& s);
+  /// Makes s live; `bounds`: as a side of something else, through which it is found, too. Throws:
+  /// std::bad_alloc, and then changes nothing. Cost: O(log L/s).
+  void put(Segment& s, bool bounds = false);
+  /// It is not only a side. Throws: std::bad_alloc, and then changes nothing. Cost: O(log L/s) for
+  /// each of its tiles.
+  void set_free(Segment& s);
   /// Requires: s is live. Cost: O(segments at its ends, and its tiles).
   void take(Segment& s) noexcept;
 
@@ -61,10 +69,10 @@ class SegmentStoreOf {
   /// looks for. Returns whether it did. visit must not throw, nor search.
   template <class Visit>
   bool visit_near(const Point<D>& p, const Point<D>& q, double slack, Visit&& visit) noexcept;
-  /// The same with the segments within `reach` of p, but for those of which all is `outside`:
-  /// outside(x, r) says so of the ball of radius r around x.
+  /// The same with the segments that are not only sides, within `reach` of p, but for those of
+  /// which all is `outside`: outside(x, r) says so of the ball of radius r around x.
   template <class Outside, class Visit>
-  bool visit_in(const Point<D>& p, double reach, Outside&& outside, Visit&& visit) noexcept;
+  bool visit_free_in(const Point<D>& p, double reach, Outside&& outside, Visit&& visit) noexcept;
 
   /// Visits the segments within `within` of p, and some others, some repeatedly, near ones first
   /// where that is easily told. `within` may become less meanwhile.
@@ -72,8 +80,19 @@ class SegmentStoreOf {
   void visit_nearest(const Point<D>& p, const double& within, Visit&& visit) noexcept;
 
   /// How much searches, and visits to the segments at a point, have looked at so far.
-  [[nodiscard]] std::uint64_t looked_at() const noexcept { return tree_.looked_at() + met_; }
+  [[nodiscard]] std::uint64_t looked_at() const noexcept {
+    return trees_[0].looked_at() + trees_[1].looked_at() + met_;
+  }
 
+  /// Calls visit(segment) for those that may have come or gone since the last commit().
+  template <class Visit>
+  void for_each_changed(Visit&& visit) const {
+    for (SegmentHandle h = changed_; h != 0; h = pool_[h].next_changed) {
+      visit(std::as_const(pool_[h]));
+    }
+  }
+  /// How many have ever been among these.
+  [[nodiscard]] std::uint64_t changes() const noexcept { return changes_; }
   /// Frees the records of segments that are not live.
   void commit() noexcept;
 
@@ -122,6 +141,9 @@ class SegmentStoreOf {
   [[nodiscard]] double reach(const Tile& t) const noexcept {
     return length(t) / 2 * (1 + 0x1p-40) + box_.side * 0x1p-48;
   }
+  [[nodiscard]] ReachTree<TileHandle, D>& tree_of(const Segment& s) noexcept {
+    return trees_[s.bounds ? 1 : 0];
+  }
   [[nodiscard]] TileHandle new_tile(const Tile& tile);
   void free_tile(TileHandle t) noexcept;
   [[nodiscard]] bool is_needless(const Tile& t, const Point<D>& p, const Point<D>& q,
@@ -137,9 +159,10 @@ class SegmentStoreOf {
   HandleTable<SegmentStoreOf> by_ends_;
   tsl::robin_map<VertexHandle, SegmentHandle> at_;  // the first of those at a point
   std::vector<Tile> tiles_;
-  ReachTree<TileHandle, D> tree_;
+  std::array<ReachTree<TileHandle, D>, 2> trees_;  // of free ones; of sides
   TileHandle free_tiles_ = 0;
   SegmentHandle changed_ = 0;
+  std::uint64_t changes_ = 0;
   std::size_t live_ = 0;
   mutable std::uint64_t met_ = 0;  // at points
 };
@@ -167,15 +190,17 @@ template <int D>
 template <class Visit>
 bool SegmentStoreOf<D>::visit_near(const Point<D>& p, const Point<D>& q, double slack,
                                    Visit&& visit) noexcept {
-  const auto search = [&](auto&& take) { return tree_.visit_near(p, q, slack, take); };
+  const auto search = [&](auto&& take) {
+    return trees_[0].visit_near(p, q, slack, take) || trees_[1].visit_near(p, q, slack, take);
+  };
   return visit_tiles(p, q, slack, search, visit);
 }
 
 template <int D>
 template <class Outside, class Visit>
-bool SegmentStoreOf<D>::visit_in(const Point<D>& p, double reach, Outside&& outside,
-                                 Visit&& visit) noexcept {
-  const auto search = [&](auto&& take) { return tree_.visit_unless(outside, take); };
+bool SegmentStoreOf<D>::visit_free_in(const Point<D>& p, double reach, Outside&& outside,
+                                      Visit&& visit) noexcept {
+  const auto search = [&](auto&& take) { return trees_[0].visit_unless(outside, take); };
   return visit_tiles(p, p, reach, search, visit);
 }
 
@@ -184,7 +209,9 @@ template <class Visit>
 void SegmentStoreOf<D>::visit_nearest(const Point<D>& p, const double& within,
                                       Visit&& visit) noexcept {
   const auto search = [&](auto&& take) {
-    tree_.visit_nearest(p, within, [&](TileHandle t) { static_cast<void>(take(t)); });
+    for (const auto& tree : trees_) {
+      tree.visit_nearest(p, within, [&](TileHandle t) { static_cast<void>(take(t)); });
+    }
     return false;
   };
   const auto visit_one = [&](const Segment& s) { return visit(s), false; };

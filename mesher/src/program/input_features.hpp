@@ -62,7 +62,9 @@ class InputFeatures<sac::PlainScope> {
 };
 
 template <>
-class InputFeatures<sac::Scope> final : public PointListener<3>, private FeatureEvents {
+class InputFeatures<sac::Scope> final : public PointListener<3>,
+                                        private FeatureEvents,
+                                        private ChangedFeatures {
  public:
   InputFeatures(const MeshBox<3>& box, const VertexPool<3>& pool, Features<sac::Scope, 3>& points,
                 sac::Engine& engine)
@@ -83,6 +85,7 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
   void set_listeners(VertexIndex<sac::Scope, 3>& cells,
                      Surroundings<sac::Scope, 3>& surroundings) noexcept {
     cells_ = &cells;
+    cells.set_changed_features(this);
     surroundings_ = &surroundings;
   }
 
@@ -136,8 +139,15 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
   }
 
  private:
-  void came(const Edge& e) noexcept override { tell_pieces_came(e), tell_others(e); }
-  void went(const Edge& e) noexcept override { tell_pieces_went(e), tell_others(e); }
+  // A side comes and goes with a polygon, which is told of.
+  void came(const Edge& e) noexcept override {
+    tell_pieces_came(e);
+    if (!e.bounds) tell_others(e);
+  }
+  void went(const Edge& e) noexcept override {
+    tell_pieces_went(e);
+    if (!e.bounds) tell_others(e);
+  }
   void came(const Polygon& f) noexcept override { tell_pieces_came(f), tell_others(f); }
   void went(const Polygon& f) noexcept override { tell_pieces_went(f), tell_others(f); }
 
@@ -156,19 +166,38 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
     guards_.went(f);
   }
 
-  // What find_near finds, it finds with a slack; and where a foot leaves a polygon, its distance
-  // may jump by as much as corners on both sides are off the plane.
+  // How far a feature is from x, at least. What find_near finds, it finds with a slack; and where a
+  // foot leaves a polygon, its distance may jump by as much as corners on both sides are off the
+  // plane.
+  template <class F>
+  [[nodiscard]] static double distance(const Point<3>& x, const F& f) {
+    return std::sqrt(distance2_to(x, f)) * (1 - 0x1p-29) - 2 * thickness_of(f);
+  }
+  [[nodiscard]] bool any_meets(const PlaceBall& whole, std::span<const PlaceBall> parts) override {
+    const auto is_outside = [&](const Point<3>& x, double r) {
+      const auto meets = [&](const PlaceBall& ball) {
+        const double most = ball.radius + r;
+        return squared_distance(ball.middle, x) <= most * most;
+      };
+      return !meets(whole) || std::none_of(parts.begin(), parts.end(), meets);
+    };
+    return store_.visit_changed_in(is_outside, [&](const auto& f) {
+      const auto meets = [&](const PlaceBall& ball) {
+        return !is_clear_of(f, ball.middle, ball.radius) && distance(ball.middle, f) <= ball.radius;
+      };
+      return meets(whole) && std::any_of(parts.begin(), parts.end(), meets);
+    });
+  }
+
   template <class F>
   void tell_others(const F& f) noexcept {
     if (cells_ == nullptr) return;
     surroundings_->changed(extent_of(f));
-    const auto distance = [&](const Point<3>& x) {
-      return std::sqrt(distance2_to(x, f)) * (1 - 0x1p-29) - 2 * thickness_of(f);
-    };
+    const auto away = [&](const Point<3>& x) { return distance(x, f); };
     const auto beyond = [&](const Point<3>& x, double r) {
-      return is_clear_of(f, x, r) || (r < reach_of(f) && distance(x) > r);
+      return is_clear_of(f, x, r) || (r < reach_of(f) && away(x) > r);
     };
-    cells_->feature_changed(beyond, distance);
+    cells_->feature_changed(beyond, away);
   }
 
   sac::Engine& engine_;

@@ -3,8 +3,8 @@
 // No edge or face of the mesh is remembered: an edge of the input is a union of the mesh's edges,
 // and a polygon of its faces, once none crosses the star of a vertex (space/star_crossings.hpp). So
 // Complete(v) queries the features of the input near v, a function of v's star and these features:
-// calls that have observed v's cell are notified when a feature within their search radius is added
-// or removed (VertexIndex::feature_changed).
+// calls that have observed v's cell are notified when a feature is added or removed that meets v's
+// star, or is within their search radius (VertexIndex::feature_changed).
 #pragma once
 
 #include <algorithm>
@@ -32,12 +32,15 @@ class Staying<S, 3> final : public EdgeFilter<3> {
         cell_(cell),
         any_(world.has_features()),
         before_(world.plc.store().looked_at()),
-        near_(world.plc.store(), cell.center().p, any_ ? world.vertices.beside(cell) : 0) {}
+        near_(world.plc.store(), cell.center().p, any_ ? world.vertices.beside(cell) : 0),
+        known_(world.vertices.was_clear() ? Known::was_clear : Known::observed) {
+    if (!any_) world_.vertices.note_clear(true);
+  }
   Staying(const Staying&) = delete;
   Staying& operator=(const Staying&) = delete;
-  /// Records the search radius with the cell's observation. Where there are no features that is
-  /// what it would be: of one that inserts nothing the star's; else it is not known, and the first
-  /// feature concerns whoever it might.
+  /// Records the search radius beyond the star with the cell's observation. Where there are no
+  /// features that is what it would be: of one that inserts nothing there is none; else it is not
+  /// known, and the first feature concerns whoever it might.
   ~Staying() override { world_.vertices.note_asked(any_ ? near_.asked() : would_ask()); }
 
   [[nodiscard]] bool any() const noexcept { return any_; }
@@ -62,7 +65,9 @@ class Staying<S, 3> final : public EdgeFilter<3> {
     bool inserts = false;
     const auto role_of = [&](const Vertex<3>& v) { return world_.vertices.role(v); };
     while (any_) {
-      const auto y = StarCrossings(cell_, world_.vertices.pool(), near_, role_of).place();
+      const Known known = std::exchange(known_, Known::nothing);
+      const auto y = StarCrossings(cell_, world_.vertices.pool(), near_, role_of).place(known);
+      if (known != Known::nothing) world_.vertices.note_clear(!y);
       if (!y) break;
       insert(s, *y, b);
       inserts = true;
@@ -80,13 +85,10 @@ class Staying<S, 3> final : public EdgeFilter<3> {
   }
 
  private:
+  using Known = StarCrossings::Known;
+
   [[nodiscard]] double would_ask() const {
-    if (inserts_) return std::numeric_limits<double>::infinity();
-    double reach2 = 0;
-    for (int i = 0; i < cell_.size(); ++i) {
-      if (cell_.used(i) && cell_.real(i)) reach2 = std::max(reach2, squared(cell_.neighbour(i)));
-    }
-    return std::sqrt(reach2) * (1 + 0x1p-10);
+    return inserts_ ? std::numeric_limits<double>::infinity() : 0;
   }
   [[nodiscard]] Standing standing(const Vertex<3>& v) const { return {v, world_.vertices.role(v)}; }
   [[nodiscard]] SmallAngles angles() const { return SmallAngles(near_); }
@@ -133,6 +135,7 @@ class Staying<S, 3> final : public EdgeFilter<3> {
   const std::uint64_t before_;
   const FeaturesBeside near_;
   std::vector<Ends> left_;
+  Known known_;  // of the star
   bool inserts_ = false;
 };
 

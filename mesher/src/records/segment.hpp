@@ -31,6 +31,7 @@ struct SegmentOf {
   SegmentHandle self = 0;          // in a free record: the next free one
   bool alive = false;              // part of the input that is being meshed
   bool changed = false;            // listed by next_changed
+  bool bounds = false;             // it is only there as a side of polygons with few
   SegmentHandle next_changed = 0;  // in the list of what has come or gone since the last update
   SegmentHandle next_at_a = 0, next_at_b = 0;  // others at its ends
   std::uint32_t tile = 0;                      // the first of its tiles

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "sets/make_set.hpp"
+#include "space/feature_search.hpp"
 
 namespace mesher::detail {
 
@@ -100,15 +101,41 @@ Polygon& FeatureStore::record(PolygonParts parts) {
 void FeatureStore::touch(Polygon& f) noexcept {
   if (f.changed) return;
   f.changed = true;
+  ++changes_;
   f.next_changed = std::exchange(changed_, f.self);
+}
+
+void FeatureStore::find_changed() {
+  const std::uint64_t changes = edges_.changes() + changes_;
+  if (changed_tree_ && found_changes_ == changes) return;
+  forget_changed();
+  ReachTree<Changed, 3> tree(box_);
+  edges_.for_each_changed([&](const Edge& e) {
+    tree.insert(middle_of(e), reach_of(e), {true, e.self});
+  });
+  for (PolygonHandle h = changed_; h != 0; h = polygons_[h].next_changed) {
+    tree.insert(polygons_[h].middle, reach_of(polygons_[h]), {false, h});
+  }
+  changed_tree_.emplace(std::move(tree));
+  found_changes_ = changes;
+}
+
+void FeatureStore::forget_changed() noexcept {
+  if (!changed_tree_) return;
+  changed_looked_at_ += changed_tree_->looked_at();
+  changed_tree_.reset();
 }
 
 // --- What is there ---------------------------------------------------------------------------
 
-void FeatureStore::use(Edge& e) {
+/// `bounds`: as a side of a polygon with few. (Who uses it otherwise makes it a free one until it
+/// goes.)
+void FeatureStore::use(Edge& e, bool bounds) {
   if (users(e) == 0) {
-    edges_.put(e);
+    edges_.put(e, bounds);
     if (listener_ != nullptr) listener_->came(e);
+  } else if (!bounds) {
+    edges_.set_free(e);
   }
   ++users_[e.self];
 }
@@ -141,7 +168,8 @@ void FeatureStore::put(Polygon& f) {
   make_room_at_edges(f);
   std::size_t used = 0;
   try {
-    for (; used < f.all_edges.size(); ++used) use(edges_[f.all_edges[used]]);
+    for (; used < f.all_edges.size(); ++used)
+      use(edges_[f.all_edges[used]], f.all_edges.size() <= kFewSides);
     tree_.insert(f.middle, f.reach + f.thickness, f.self);
   } catch (...) {
     leave(std::span(f.all_edges).first(used));
@@ -166,6 +194,7 @@ void FeatureStore::take(Polygon& f) noexcept {
 
 // Polygons refer to edges.
 void FeatureStore::commit() noexcept {
+  forget_changed();
   for (PolygonHandle h = std::exchange(changed_, 0); h != 0;) {
     Polygon& f = polygons_[h];
     h = std::exchange(f.next_changed, 0);

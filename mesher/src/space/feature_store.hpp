@@ -8,6 +8,7 @@
 #include <boost/container/small_vector.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -45,7 +46,7 @@ class FeatureEvents {
 class FeatureStore {
  public:
   FeatureStore(const MeshBox<3>& box, const VertexPool<3>& points)
-      : points_(points), edges_(box, points), by_parts_(*this), tree_(box) {}
+      : box_(box), points_(points), edges_(box, points), by_parts_(*this), tree_(box) {}
   FeatureStore(const FeatureStore&) = delete;
   FeatureStore& operator=(const FeatureStore&) = delete;
   void set_listener(FeatureEvents* listener) noexcept { listener_ = listener; }
@@ -85,7 +86,7 @@ class FeatureStore {
 
   /// One user more of an edge, who makes it live if it is the first. Throws: std::bad_alloc, and
   /// then changes nothing.
-  void use(Edge& e);
+  void use(Edge& e) { use(e, false); }
   /// One user less. Requires: use(e) before.
   void leave(Edge& e) noexcept;
   [[nodiscard]] std::uint32_t users(const Edge& e) const noexcept {
@@ -115,10 +116,12 @@ class FeatureStore {
     }
   }
   /// The same with the edges within `reach` of p that are not `outside(x, r)`: no place of the ball
-  /// of radius r around x matters.
+  /// of radius r around x matters. Those that are only sides of polygons with few of them are left
+  /// out.
   template <class Outside, class Visit>
-  bool visit_edges_in(const Point<3>& p, double reach, Outside&& outside, Visit&& visit) noexcept {
-    return edges_.visit_in(p, reach, outside, [&](const Edge& e) { return visit(e); });
+  bool visit_free_edges_in(const Point<3>& p, double reach, Outside&& outside,
+                           Visit&& visit) noexcept {
+    return edges_.visit_free_in(p, reach, outside, [&](const Edge& e) { return visit(e); });
   }
 
   /// The same with all polygons that are not.
@@ -127,6 +130,9 @@ class FeatureStore {
     return tree_.visit_unless(outside,
                               [&](PolygonHandle h) { return visit(std::as_const(polygons_[h])); });
   }
+
+  /// Edges that are only sides of polygons with no more than so many are best found with these.
+  static constexpr std::size_t kFewSides = 8;
 
   /// Visits the edges, or the polygons, within `within` of x, and some others, some repeatedly,
   /// near ones first where that is easily told. `within` may become less meanwhile. visit must not
@@ -148,7 +154,19 @@ class FeatureStore {
 
   /// How much searches have looked at so far.
   [[nodiscard]] std::uint64_t looked_at() const noexcept {
-    return edges_.looked_at() + tree_.looked_at() + parts_looked_at_;
+    return edges_.looked_at() + tree_.looked_at() + parts_looked_at_ + changed_looked_at_ +
+           (changed_tree_ ? changed_tree_->looked_at() : 0);
+  }
+  /// Calls visit(edge) and visit(polygon) for those that may have come or gone since the last
+  /// commit() and are not `outside`, as above, until it returns true. Returns whether it did.
+  /// Throws: std::bad_alloc.
+  template <class Outside, class Visit>
+  bool visit_changed_in(Outside&& outside, Visit&& visit) {
+    find_changed();
+    return changed_tree_->visit_unless(outside, [&](const Changed& f) {
+      return f.is_edge ? visit(std::as_const(edges_[f.handle]))
+                       : visit(std::as_const(polygons_[f.handle]));
+    });
   }
   /// Frees the records of features that are not live.
   void commit() noexcept;
@@ -167,12 +185,21 @@ class FeatureStore {
   };
   [[nodiscard]] Key key(PolygonHandle h) const noexcept { return {&polygons_[h]}; }
   [[nodiscard]] static std::size_t hash(const Key& key) noexcept;
+  struct Changed {
+    bool is_edge;
+    std::uint32_t handle;
+    friend bool operator==(const Changed&, const Changed&) = default;
+  };
   void touch(Polygon& f) noexcept;
+  void find_changed();
+  void forget_changed() noexcept;
+  void use(Edge& e, bool bounds);
   void leave(std::span<const EdgeHandle> edges) noexcept;
   [[nodiscard]] Polygon shaped(PolygonParts& parts);
   void make_room_at_edges(const Polygon& f);
   void put_at_edges(const Polygon& f) noexcept;
 
+  const MeshBox<3>& box_;
   const VertexPool<3>& points_;
   SegmentStoreOf<3> edges_;
   std::vector<std::uint32_t> users_;  // by the handles of edges
@@ -183,6 +210,11 @@ class FeatureStore {
   ReachTree<PolygonHandle, 3> tree_;
   std::uint64_t parts_looked_at_ = 0;  // of polygons
   PolygonHandle changed_ = 0;
+  std::uint64_t changes_ = 0;  // how many polygons have ever been in that list
+  // What has changed, by place, once somebody asks: when there had been so many changes.
+  std::optional<ReachTree<Changed, 3>> changed_tree_;
+  std::uint64_t found_changes_ = 0;
+  std::uint64_t changed_looked_at_ = 0;  // in trees that were given up
   FeatureEvents* listener_ = nullptr;
 };
 

@@ -20,14 +20,6 @@ namespace mesher::detail {
 /// How far the corners of a polygon may be off its plane, times its reach (and some rounding).
 inline constexpr double kFlatness = 1e-8;
 
-/// How far features are apart that cannot be told to be: what rounding of places this far from 0
-/// may do, and the finest cell of a mesh that holds them.
-[[nodiscard]] inline double resolution(const Point<3>& place, double reach) {
-  double most = reach;
-  for (const double x : place) most = std::max(most, std::abs(x) + reach);
-  return most * 0x1p-48;
-}
-
 /// The squared radius of a ball, with its slack.
 [[nodiscard]] inline double closed(double radius2) { return radius2 * (1 + 0x1p-30); }
 /// Whether a squared distance is within a ball's squared radius.

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "geometry/input_point.hpp"
 #include "mesher/error.hpp"
+#include "sets/make_set.hpp"
 #include "space/encroachment.hpp"
 #include "space/polygon_shape.hpp"
 #include "space/yielding.hpp"
@@ -71,18 +73,50 @@ bool StarCrossings::meets(const Point<3>& middle, double radius) const noexcept 
   });
 }
 
-/// The edges, or polygons, that may meet the star; in no order, some repeatedly.
+/// Of the edges, or polygons, that have come in this update those that may meet the star.
 template <class F>
-std::vector<const F*> StarCrossings::find() const {
-  FoundFeatures<F> found;
-  const auto is_outside = [&](const Point<3>& x, double radius) { return !meets(x, radius); };
-  const auto take = [&](const F& f) noexcept { return found.take(f); };
-  if constexpr (std::is_same_v<F, Edge>) {
-    near_.store().visit_edges_in(cell_.center().p, reach_ + rounding_, is_outside, take);
-  } else {
-    near_.store().visit_polygons_in(is_outside, take);
-  }
+std::vector<const F*> StarCrossings::find_changed() const {
+  std::vector<const F*> all;
+  near_.store().visit_changed_in(
+      [&](const Point<3>& x, double radius) { return !meets(x, radius); },
+      [&](const auto& f) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(f)>, F>) {
+          if (f.alive && meets(middle_of(f), reach_of(f))) all.push_back(&f);
+        }
+        return false;
+      });
+  return all;
+}
+
+/// The polygons that may meet the star; in no order, some repeatedly.
+auto StarCrossings::find_polygons() const -> Polygons {
+  FoundFeatures<Polygon> found;
+  near_.store().visit_polygons_in(
+      [&](const Point<3>& x, double radius) { return !meets(x, radius); },
+      [&](const Polygon& f) noexcept { return found.take(f); });
   return std::move(found).all();
+}
+
+/// The edges that may; those that are only sides of polygons with few, with these.
+auto StarCrossings::find_edges(const Polygons& polygons) const -> Edges {
+  const FeatureStore& store = near_.store();
+  FoundFeatures<Edge> found;
+  near_.store().visit_free_edges_in(
+      cell_.center().p, reach_ + rounding_,
+      [&](const Point<3>& x, double radius) { return !meets(x, radius); },
+      [&](const Edge& e) noexcept { return found.take(e); });
+  Edges edges = std::move(found).all();
+  std::vector<EdgeHandle> sides;
+  for (const Polygon* f : polygons) {
+    if (f->all_edges.size() > FeatureStore::kFewSides) continue;
+    sides.insert(sides.end(), f->all_edges.begin(), f->all_edges.end());
+  }
+  make_set(sides);
+  for (const EdgeHandle h : sides) {
+    const Edge& e = store.edges()[h];
+    if (e.bounds && meets(middle_of(e), reach_of(e))) edges.push_back(&e);
+  }
+  return edges;
 }
 
 /// The first in canonical order for which is(f); null: there is none.
@@ -96,24 +130,28 @@ const F* StarCrossings::first(const std::vector<const F*>& all, Is&& is) {
   return first;
 }
 
-std::optional<Placed> StarCrossings::place() {
+std::optional<Placed> StarCrossings::place(Known known) {
   if (real_.empty()) return std::nullopt;
-  near_.ask_within(reach_);
-  const auto polygons = find<Polygon>();
+  if (known == Known::nothing) near_.ask_within(reach_);
+  const bool was_clear = known == Known::was_clear;
+  Polygons polygons;
+  if (self_.on != 0 || !was_clear) polygons = find_polygons();
   if (self_.on != 0) {
     const auto leans = [&](const Polygon& f) { return place_leaning(f).has_value(); };
     if (const Polygon* f = first(polygons, leans)) return place_leaning(*f);
   }
   const auto crosses = [&](const auto& f) { return look_at(f).has_value(); };
-  if (const Edge* e = first(find<Edge>(), crosses)) return place_on(*e, *look_at(*e));
+  const Edges edges = was_clear ? find_changed<Edge>() : find_edges(polygons);
+  if (const Edge* e = first(edges, crosses)) return place_on(*e, *look_at(*e));
+  if (was_clear) polygons = find_changed<Polygon>();
   if (const Polygon* f = first(polygons, crosses)) return place_on(*f, *look_at(*f));
   return std::nullopt;
 }
 
 bool StarCrossings::any() {
   if (real_.empty()) return false;
-  near_.ask_within(reach_);
-  return any_of(find<Edge>()) || any_of(find<Polygon>());
+  const Polygons polygons = find_polygons();
+  return any_of(find_edges(polygons)) || any_of(polygons);
 }
 
 template <class F>

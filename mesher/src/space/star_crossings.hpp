@@ -40,6 +40,10 @@ namespace mesher::detail {
 
 class StarCrossings {
  public:
+  /// What is known of the star: nothing, then features as far as it reaches are asked for; that the
+  /// cell is as it was observed; and that no feature crosses it that has not come in this update.
+  enum class Known : std::uint8_t { nothing, observed, was_clear };
+
   /// `role_of(vertex)`: what it lies on.
   template <class RoleOf>
   StarCrossings(VoronoiCell3& cell, const VertexPool<3>& pool, const FeaturesBeside& near,
@@ -52,8 +56,8 @@ class StarCrossings {
   /// Of the first feature that crosses the star, edges before polygons, in canonical order: where
   /// it gets a vertex, which takes some of the cell. Nothing: none crosses.
   /// Throws: Error (too_close), if rounding leaves no such place.
-  [[nodiscard]] std::optional<Placed> place();
-  /// Whether one does.
+  [[nodiscard]] std::optional<Placed> place(Known known);
+  /// Whether one does. Requires: the cell is as it was observed.
   [[nodiscard]] bool any();
 
  private:
@@ -92,8 +96,12 @@ class StarCrossings {
   }
   [[nodiscard]] double nearest2(const Point<3>& x) const;
   [[nodiscard]] bool meets(const Point<3>& middle, double radius) const noexcept;
+  using Polygons = std::vector<const Polygon*>;
+  using Edges = std::vector<const Edge*>;
   template <class F>
-  [[nodiscard]] std::vector<const F*> find() const;
+  [[nodiscard]] std::vector<const F*> find_changed() const;
+  [[nodiscard]] Polygons find_polygons() const;
+  [[nodiscard]] Edges find_edges(const Polygons& polygons) const;
   template <class F>
   [[nodiscard]] bool any_of(const std::vector<const F*>& all);
   template <class F, class Is>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <type_traits>
 #include <vector>
 
 #include "cell_scene.hpp"
@@ -87,6 +88,57 @@ TEST_CASE("What is near, or crowds a piece, is found as by looking at all") {
   REQUIRE(near_some > 50);
 }
 
+TEST_CASE("What has changed, and edges that are no sides, are found by place") {
+  const std::uint64_t seed = GENERATE(1, 2, 3, 4);
+  CAPTURE(seed);
+  Plain plain(seed);
+  Scene& scene = plain.scene;
+  FeatureStore& store = scene.features().store();
+  std::size_t changed = 0, sides = 0;
+  for (int edit = 0; edit < 200; ++edit) {
+    plain.edit();
+    const Point<3> place = scene.place();
+    const double radius = scene.radius();
+    const auto is_outside = [&](const Point<3>& x, double r) {
+      return squared_distance(x, place) > (radius + r) * (radius + r);
+    };
+    std::vector<EdgeHandle> edges, free;
+    std::vector<PolygonHandle> polygons;
+    store.visit_changed_in(is_outside, [&](const auto& f) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(f)>, Edge>) {
+        edges.push_back(f.self);
+      } else {
+        polygons.push_back(f.self);
+      }
+      return false;
+    });
+    store.visit_free_edges_in(place, radius, is_outside,
+                              [&](const Edge& e) { return free.push_back(e.self), false; });
+    const auto has = [](const auto& all, std::uint32_t h) {
+      return std::find(all.begin(), all.end(), h) != all.end();
+    };
+    store.edges().for_each([&](const Edge& e) {
+      const bool is_near = distance2_to(place, e) <= radius * radius;
+      REQUIRE((!has(edges, e.self) || e.changed));
+      REQUIRE((!e.changed || !is_near || has(edges, e.self)));
+      REQUIRE((!has(free, e.self) || e.alive));
+      changed += e.changed && is_near;
+      if (!e.alive || !is_near) return;
+      REQUIRE((has(free, e.self) || !store.polygons_at(e).empty()));
+      sides += !has(free, e.self);
+      // Who uses it otherwise is told by the count.
+      if (store.users(e) > store.polygons_at(e).size()) REQUIRE(has(free, e.self));
+    });
+    store.polygons().for_each([&](const Polygon& f) {
+      const bool is_near = distance2_to(place, f) <= radius * radius;
+      REQUIRE((!has(polygons, f.self) || f.changed));
+      REQUIRE((!f.changed || !is_near || has(polygons, f.self)));
+    });
+  }
+  REQUIRE(changed > 20);
+  REQUIRE(sides > 20);
+}
+
 TEST_CASE("An edge is there while a segment or a polygon uses it") {
   Plain plain(1);
   Scene& scene = plain.scene;
@@ -98,6 +150,8 @@ TEST_CASE("An edge is there while a segment or a polygon uses it") {
   const Polygon& square = scene.features().insert({{{a, b, c, d}}, {{p, q}}, {}});
   const Polygon& corner = scene.features().insert({{{a, b, d}}, {}, {}});
   REQUIRE(store.users(segment) == 3);
+  REQUIRE(!segment.bounds);
+  REQUIRE(store.find_edge(b, c)->bounds);
   REQUIRE(store.live_edges() == 6);  // the diagonal and pq among them
   REQUIRE(square.has_edge(store.find_edge(q, p)->self));
   REQUIRE(square.has(p));
