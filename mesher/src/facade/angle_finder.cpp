@@ -9,6 +9,7 @@
 
 #include "check/forced.hpp"
 #include "check/shrink_test.hpp"
+#include "facade/tiles_mesh.hpp"
 #include "mesher/check.hpp"
 #include "plane/exempt.hpp"
 #include "sets/make_set.hpp"
@@ -20,11 +21,12 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // The input as the program has it.
+template <class AnyMesh>
 class WorldInput {
  public:
-  explicit WorldInput(World<sac::Scope>& world) : world_(world) {}
+  explicit WorldInput(const AnyMesh& mesh) : mesh_(mesh), world_(mesh.world()) {}
 
-  [[nodiscard]] const Point<2>& place(VertexHandle v) const { return world_.vertices.pool()[v].p; }
+  [[nodiscard]] const Point<2>& place(VertexHandle v) const { return mesh_.vertex(v).p; }
   [[nodiscard]] std::vector<std::uint32_t> codes_near(const Point<2>& p, double r) const {
     std::vector<std::uint32_t> near;
     near.reserve(32);
@@ -37,7 +39,7 @@ class WorldInput {
     return near;
   }
   [[nodiscard]] SegmentHandle through(VertexHandle v) const {
-    const SegmentHandle on = world_.vertices.role(world_.vertices.pool()[v]).on;
+    const SegmentHandle on = mesh_.role(mesh_.vertex(v)).on;
     return on != 0 ? on : kPointFeature;
   }
   [[nodiscard]] std::array<VertexHandle, 2> ends(SegmentHandle s) const {
@@ -84,12 +86,14 @@ class WorldInput {
     });
   }
 
+  const AnyMesh& mesh_;
   World<sac::Scope>& world_;
 };
 
 }  // namespace
 
-AngleNews AngleFinder::news(std::vector<Triangle> come) const {
+template <class AnyMesh>
+AngleNews AngleFinder<AnyMesh>::news(std::vector<Triangle> come) const {
   if (world_.segments.store().live() == 0) return {};
   const auto is_before = [&](VertexHandle a, VertexHandle b) { return place(a) < place(b); };
   for (Triangle& t : come) {  // what is said of it is not to depend on handles
@@ -98,19 +102,14 @@ AngleNews AngleFinder::news(std::vector<Triangle> come) const {
   return {forced(come), shrunk(come)};
 }
 
-template <class Visit>
-void AngleFinder::for_each_neighbour(const Vertex<2>& v, Visit&& visit) const {
-  const auto& pool = world_.vertices.pool();
-  world_.vertices.for_each_simplex_at(
-      v, [&](const Triangle& t) { visit(pool[t[1]]), visit(pool[t[2]]); });
-}
-
-bool AngleFinder::is_poor(const Triangle& t) const {
+template <class AnyMesh>
+bool AngleFinder<AnyMesh>::is_poor(const Triangle& t) const {
   return radius_edge(place(t[0]), place(t[1]), place(t[2])) > rho_ * (1 + kPoorRounding);
 }
 
-std::vector<SmallAngle> AngleFinder::forced(const std::vector<Triangle>& come) const {
-  const WorldInput input(world_);
+template <class AnyMesh>
+std::vector<SmallAngle> AngleFinder<AnyMesh>::forced(const std::vector<Triangle>& come) const {
+  const WorldInput<AnyMesh> input(mesh_);
   std::map<std::array<std::uint32_t, 3>, SmallAngle> angles;
   const auto angle = [&](const Wedge& w) -> SmallAngle& {
     const auto [s, t] = std::minmax({w.s, w.t});
@@ -126,10 +125,9 @@ std::vector<SmallAngle> AngleFinder::forced(const std::vector<Triangle>& come) c
   for (const Triangle& t : come) {
     if (!is_poor(t)) continue;
     const auto [p, q] = shortest_edge(t, [&](VertexHandle v) { return place(v); });
-    const auto& pool = world_.vertices.pool();
     const double degrees = smallest_angle_deg(place(t[0]), place(t[1]), place(t[2]));
-    for (const Wedge& w :
-         wedges_across(world_.vertices, world_.segments.store(), pool[p], pool[q], false)) {
+    for (const Wedge& w : wedges_across(world_.segments.store(), on_lines(mesh_.vertex(p)),
+                                        on_lines(mesh_.vertex(q)), false)) {
       count(angle(w), degrees);
     }
   }
@@ -140,21 +138,23 @@ std::vector<SmallAngle> AngleFinder::forced(const std::vector<Triangle>& come) c
 }
 
 // To the nearest neighbour that counts.
-double AngleFinder::nearest(const Vertex<2>& v) const {
+template <class AnyMesh>
+double AngleFinder<AnyMesh>::nearest(const Vertex<2>& v) const {
   double nearest2 = kInfinity;
   for_each_neighbour(v, [&](const Vertex<2>& w) {
     const double far2 = distance2(v.p, w.p, w.p);
     if (far2 >= nearest2) return;
     const auto& store = world_.segments.store();
-    if (wedges_across(world_.vertices, store, v, w, true).empty()) nearest2 = far2;
+    if (wedges_across(store, on_lines(v), on_lines(w), true).empty()) nearest2 = far2;
   });
   return std::sqrt(nearest2);
 }
 
 // Whether two features without a common point are within r of v, most of the time: v or its segment
 // and an input point, or two of these, among v's neighbours or further away.
-bool AngleFinder::is_near_two(const Vertex<2>& v, double r) const {
-  const SegmentHandle on = world_.vertices.role(v).on;
+template <class AnyMesh>
+bool AngleFinder<AnyMesh>::is_near_two(const Vertex<2>& v, double r) const {
+  const SegmentHandle on = mesh_.role(v).on;
   VertexHandle first = v.input ? v.self : 0;
   const auto is_second = [&](const Vertex<2>& w) {
     if (!w.input || w.self == first || distance2(v.p, w.p, w.p) > r * r) return false;
@@ -166,15 +166,16 @@ bool AngleFinder::is_near_two(const Vertex<2>& v, double r) const {
   return found || world_.features.visit_points_in(around(v.p, r), is_second);
 }
 
-std::vector<ShrunkVertex> AngleFinder::shrunk(const std::vector<Triangle>& come) const {
+template <class AnyMesh>
+std::vector<ShrunkVertex> AngleFinder<AnyMesh>::shrunk(const std::vector<Triangle>& come) const {
   std::vector<VertexHandle> corners;
   for (const Triangle& t : come) corners.insert(corners.end(), t.begin(), t.end());
   make_set(corners);
-  const WorldInput input(world_);
-  const ShrinkTest<WorldInput> test(input, kShrinks, world_.box.side);
+  const WorldInput<AnyMesh> input(mesh_);
+  const ShrinkTest<WorldInput<AnyMesh>> test(input, kShrinks, world_.box.side);
   std::vector<ShrunkVertex> found;
   for (const VertexHandle h : corners) {
-    const Vertex<2>& v = world_.vertices.pool()[h];
+    const Vertex<2>& v = mesh_.vertex(h);
     const double length = v.boundary ? kInfinity : nearest(v);
     if (length == kInfinity || is_near_two(v, kShrinks * length)) continue;
     if (!test.has_shrunk(h, length)) continue;
@@ -184,5 +185,8 @@ std::vector<ShrunkVertex> AngleFinder::shrunk(const std::vector<Triangle>& come)
   std::sort(found.begin(), found.end(), [](auto& a, auto& b) { return a.at < b.at; });
   return found;
 }
+
+template class AngleFinder<WorldMesh>;
+template class AngleFinder<TilesMesh>;
 
 }  // namespace mesher::detail

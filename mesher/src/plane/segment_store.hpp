@@ -74,6 +74,13 @@ class SegmentStoreOf {
   /// How much searches, and visits to the segments at a point, have looked at so far.
   [[nodiscard]] std::uint64_t looked_at() const noexcept { return tree_.looked_at() + met_; }
 
+  /// Calls visit(segment) for those that have come or gone since the last commit, or that someone
+  /// has noted.
+  template <class Visit>
+  void for_each_changed(Visit&& visit) const {
+    for (SegmentHandle h = changed_; h != 0; h = pool_[h].next_changed) visit(pool_[h]);
+  }
+  void note_change(const Segment& s) noexcept { touch(pool_[s.self]); }
   /// Frees the records of segments that are not live.
   void commit() noexcept;
 
