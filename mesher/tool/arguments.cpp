@@ -319,6 +319,7 @@ void add_mesh_options(CLI::App& command, MeshArguments& args, MeshGoes goes) {
       "Repair INPUT: lines (in space also polygons) that cross or touch get common points\n"
       "there, points at one position become one, what several cover belongs to the smallest\n"
       "id, polygons that are not flat become triangles; each change is reported");
+  add_tolerance_option(command, args.repair_tolerance)->needs("--repair");
   command.add_flag("--region-areas,--region-volumes", args.region_areas,
                    "Apply the largest areas, or volumes, of regions as limits of size");
   command.add_flag(
@@ -355,6 +356,23 @@ double option_positive(const std::string& option, const std::string& text) {
   throw Error(ErrorCode::bad_option, option + " " + text + ": must be above 0");
 }
 
+std::optional<double> option_tolerance(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const double x = option_number("--repair-tolerance", text);
+  if (x >= 0) return x;
+  throw Error(ErrorCode::bad_option, "--repair-tolerance " + text + ": must be 0 or more");
+}
+
+CLI::Option* add_tolerance_option(CLI::App& command, std::string& text) {
+  return command
+      .add_option(
+          "--repair-tolerance", text,
+          "Of a repair: what is closer, in the units of INPUT, is made to touch. In space\n"
+          "larger ones lead to fewer vertices where surfaces nearly touch; 0: what rounding\n"
+          "does not tell apart (default: 0, in space 2^-20 of the box's side)")
+      ->type_name("T");
+}
+
 double option_rho(const std::string& text, double most) {
   const double rho = option_number("--rho", text);
   if (rho > kLeastRho && rho <= most) return rho;
@@ -384,10 +402,11 @@ Input<D> as_meshed(Input<D> input, const MeshArguments& args) {
     input.offer_repair();
     return input;
   }
-  std::optional<mesher::Box<D>> domain;
-  if (!args.domain.empty()) domain = domain_of<D>(args.domain);
+  mesher::RepairOptions<D> options;
+  if (!args.domain.empty()) options.domain = domain_of<D>(args.domain);
+  options.tolerance = option_tolerance(args.repair_tolerance);
   try {
-    locating(input, [&] { input.repair(domain); });
+    locating(input, [&] { input.repair(options); });
   } catch (const Error& error) {
     throw with_domain_hint<D>(error);
   }

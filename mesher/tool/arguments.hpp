@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,7 @@ struct MeshArguments {
   bool region_areas = false;
   bool surface = false, merge = false, no_merge = false;
   bool repair = false;
+  std::string repair_tolerance;
   bool box = false;
   bool is_static = false;
   bool no_flat = false;            // in space
@@ -70,6 +72,10 @@ void add_threads_option(CLI::App& command, MeshArguments& args);
 [[nodiscard]] double option_number(const std::string& option, const std::string& text);
 
 /// The same, above 0. Throws: likewise.
+/// --repair-tolerance.
+CLI::Option* add_tolerance_option(CLI::App& command, std::string& text);
+/// Its number, if it is given. Throws: Error(bad_option).
+[[nodiscard]] std::optional<double> option_tolerance(const std::string& text);
 [[nodiscard]] double option_positive(const std::string& option, const std::string& text);
 
 /// The value of --rho, at most `most`. Throws: Error(bad_option).

@@ -31,6 +31,7 @@ struct CheckArguments {
   bool ties = false, near = false;
   bool surface = false, merge = false, no_merge = false;
   bool repair = false;
+  std::string repair_tolerance;
 };
 
 /// What was looked at, and what was found.
@@ -79,7 +80,10 @@ std::string counts_of(const mesher::MeshData<D>& mesh) {
 template <int D>
 Input<D> input_of(const CheckArguments& args, Faces faces) {
   Input<D> input(args.input, faces, coinciding(args.repair));
-  if (args.repair) locating(input, [&] { input.repair({}); });
+  if (!args.repair) return input;
+  const mesher::RepairOptions<D> options{.domain = {},
+                                         .tolerance = option_tolerance(args.repair_tolerance)};
+  locating(input, [&] { input.repair(options); });
   return input;
 }
 
@@ -204,6 +208,7 @@ void add_check(CLI::App& app) {
       ->add_flag("--repair", args->repair,
                  "Repair --input as 'mesh --repair' does (without --domain), before the checks")
       ->needs(check->get_option("--input"));
+  add_tolerance_option(*check, args->repair_tolerance)->needs("--repair");
   check->add_option("--rho", args->rho, "Bound of circumradius over shortest edge");
   check->add_option("--max-area", args->max_area, "Bound of the area of triangles");
   check->add_option("--max-volume", args->max_volume, "Bound of the volume of tetrahedra");

@@ -132,10 +132,11 @@ bool Input<D>::leaves_faces() const noexcept {
 }
 
 template <int D>
-void Input<D>::repair(const std::optional<mesher::Box<D>>& domain) {
-  mesher::Repaired<D> repaired = mesher::repair(file_, domain);
+void Input<D>::repair(const mesher::RepairOptions<D>& options) {
+  mesher::Repaired<D> repaired = mesher::repair(file_, options);
   file_ = std::move(repaired.file);
   repairs_ = std::move(repaired.notes);
+  deviation_ = repaired.deviation;
 }
 
 // Of lines in the plane.

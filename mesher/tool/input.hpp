@@ -123,10 +123,12 @@ class Input final : public Standing {
 
   /// What crosses, touches or overlaps becomes a graph that can be meshed; repairs() says how.
   /// Throws: Error, as mesher::repair.
-  void repair(const std::optional<mesher::Box<D>>& domain);
+  void repair(const mesher::RepairOptions<D>& options);
   [[nodiscard]] const std::vector<mesher::RepairNote<D>>& repairs() const noexcept {
     return repairs_;
   }
+  /// How far features are from where they were, at most.
+  [[nodiscard]] double deviation() const noexcept { return deviation_; }
 
   /// Whether a region of the file, or one that edits have brought, has a largest area, or volume.
   [[nodiscard]] bool has_region_limits() const;
@@ -142,11 +144,12 @@ class Input final : public Standing {
     return mesher::location_of(feature, file_);
   }
   [[nodiscard]] bool meet(const std::vector<mesher::Feature>& features) const override;
-  [[nodiscard]] std::string repair_reach() const override { return D == 2 ? "2^-44" : "2^-42"; }
+  [[nodiscard]] std::string repair_reach() const override { return D == 2 ? "2^-44" : "2^-20"; }
 
   mesher::GraphFile<D> file_;
   bool has_features_ = true;
   std::vector<mesher::RepairNote<D>> repairs_;
+  double deviation_ = 0;
 };
 
 }  // namespace tool

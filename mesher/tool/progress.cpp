@@ -46,7 +46,7 @@ mesher::RunControl Progress::control() {
   return {.progress =
               [this](const mesher::Progress& progress) {
                 tick(progress);
-                return !interrupted();
+                return (meanwhile_ == nullptr || meanwhile_(progress)) && !interrupted();
               },
           .stop = {}};
 }

@@ -2,7 +2,9 @@
 // two seconds. It is erased at the end.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cancel.hpp"
@@ -24,6 +26,10 @@ class Progress {
 
   /// What the runs are part of, in front of how far they are: "update 7, " say.
   void set_task(std::string task) { task_ = std::move(task); }
+  /// Asked by all runs from now on, which it stops by false.
+  void set_meanwhile(std::function<bool(const mesher::Progress&)> meanwhile) {
+    meanwhile_ = std::move(meanwhile);
+  }
   /// Makes room for other output.
   void erase();
 
@@ -35,6 +41,7 @@ class Progress {
   bool shown_ = false;
   double next_;  // when to show a line
   std::string task_;
+  std::function<bool(const mesher::Progress&)> meanwhile_;
 };
 
 /// Whether a mesher takes holes and regions.

@@ -66,8 +66,13 @@ void run_repair_in(const MeshArguments& args) {
   outputs.commit();
   if (args.quiet) return;
   const std::size_t changes = input.repairs().size();
-  std::printf("%s; %s\n", contents(input.graph()).c_str(),
-              changes == 0 ? "nothing was to be repaired" : counted(changes, "repair").c_str());
+  if (changes == 0) {
+    std::printf("%s; nothing was to be repaired\n", contents(input.graph()).c_str());
+  } else {
+    std::printf("%s; %s, which move what is there by at most %.2g\n",
+                contents(input.graph()).c_str(), counted(changes, "repair").c_str(),
+                input.deviation());
+  }
   print_outputs(targets);
 }
 
@@ -85,6 +90,7 @@ void add_repair(CLI::App& app) {
                    "it, only say what would be repaired")
       ->type_name("OUT")
       ->allow_extra_args(false);
+  add_tolerance_option(*repair, args->repair_tolerance);
   repair->add_flag("--quiet", args->quiet, "Print nothing but errors");
   repair->footer(
       "These are the repairs of 'mesh --repair': lines (in space also polygons) that cross or\n"

@@ -311,7 +311,8 @@ static lm_status call(void) {
     case 16:
       return lm_graph_write(handle(GRAPH), path());
     case 17:
-      return lm_graph_repair(handle(GRAPH), once_in(9) ? numbers() : NULL, place(GRAPH));
+      return lm_graph_repair(handle(GRAPH), once_in(9) ? numbers() : NULL,
+                             once_in(3) ? numbers() : NULL, place(GRAPH));
     case 18:
       return lm_graph_merge(handle(GRAPH), place(GRAPH));
     case 19:

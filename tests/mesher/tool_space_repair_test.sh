@@ -225,3 +225,32 @@ expect 0 'nothing was to be repaired' repair thin.poly -o thin.again.poly
 has thin.again.poly '^2 1$'
 expect 0 '' mesh thin.again.poly --quiet -o thin.1.node
 expect 0 'polygons    ok' check thin.1.node --input thin.poly --rho 2
+
+echo "== space: what is closer than a tolerance is made to touch"
+cat >lid.poly <<'END'
+8 3 0 0
+1 0 0 0
+2 4 0 0
+3 4 4 0
+4 0 4 0
+5 1 1 .001
+6 3 1 .001
+7 3 3 -.001
+8 1 3 -.001
+2 0
+1
+4 1 2 3 4
+1
+4 5 6 7 8
+0
+0
+END
+expect 0 '; 2 repairs, which move what is there by at most 0' repair lid.poly -o lid.0.poly
+expect 0 'repairs, which move what is there by at most 0.001' repair lid.poly \
+  --repair-tolerance .01 -o lid.1.poly
+expect 0 '' mesh lid.poly --repair --repair-tolerance .01 --quiet -o lid.node
+expect 0 'polygons    ok' check lid.node --input lid.poly --repair --repair-tolerance .01 --rho 2
+expect 2 'error[bad_option]: --repair-tolerance -1: must be 0 or more' repair lid.poly \
+  --repair-tolerance -1
+expect 2 'the tolerance of a repair is 1, not from 0 to' repair lid.poly --repair-tolerance 1
+expect 2 'repair-tolerance requires --repair' mesh lid.poly --repair-tolerance 1 -o x.vtu

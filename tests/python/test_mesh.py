@@ -155,6 +155,11 @@ class Plane(unittest.TestCase):
         graph = lm.Graph(points, **lines).repaired()
         self.assertGreater(len(graph.notes), 0)
         self.assertIn((1, 1), [tuple(p) for p in graph.points])
+        near = lm.Graph([(0, 0), (2, 0), (1, 0.001)], segments=[(0, 1)])
+        self.assertEqual(near.repaired().notes, [])
+        self.assertEqual(len(near.repaired(tolerance=0.01).notes), 1)
+        with self.assertRaises(lm.GeometryError):
+            near.repaired(tolerance=-1.0)
         m = lm.mesh(points, **lines, repair=True)
         self.assertIn((1, 1), [tuple(p) for p in m.points])
 

@@ -9,6 +9,7 @@ import random
 import signal
 import subprocess
 import sys
+import threading
 import time
 import types
 import unittest
@@ -172,6 +173,28 @@ class Views(unittest.TestCase):
             d.update()
             with self.assertRaisesRegex(ValueError, "close it, and open another"):
                 view.push()
+
+    def test_a_push_that_is_stopped_in_the_page_changes_nothing_there(self):
+        d = room()
+        with shown(d) as view:
+            page = self.page_of(view)
+            before = simplices_of_page(page)
+            d.limit(size=.04)
+            d.update()
+
+            def stop():
+                while True:
+                    if view._ask("POST", "stop") == (200, b"stopping\n"):
+                        return
+            stopping = threading.Thread(target=stop)
+            stopping.start()
+            with self.assertRaises(lm.Cancelled) as caught:
+                view.push()
+            stopping.join()
+            self.assertEqual(caught.exception.code, "cancelled")
+            self.assertEqual(simplices_of_page(page), before)
+            self.assertTrue(view.push())
+            self.require_same(d, page)
 
     def test_limits_of_the_page_are_pulled(self):
         d = room()

@@ -25,14 +25,14 @@ inline mesher::Box<3> domain_of(const mesher::Graph<3>& plc) {
 
 inline mesher::Repaired<3> repaired(const mesher::Graph<3>& plc) {
   const auto domain = domain_of(plc);
-  mesher::Repaired<3> result = mesher::repair(plc, domain);
+  mesher::Repaired<3> result = mesher::repair(plc, {.domain = domain});
   const mesher::Graph<3>& out = result.file.graph;
   mesher::BoxMesher<3> m({.domain = domain, .max_vertices = 200000});
   for (const auto& p : out.points) m.insert(p.id, p.at);
   for (const auto& s : out.segments) m.insert_segment(s.id, s.from, s.to);
   for (const auto& f : out.polygons) m.insert_polygon(f);
   m.update();
-  const mesher::Repaired<3> again = mesher::repair(result.file, domain);
+  const mesher::Repaired<3> again = mesher::repair(result.file, {.domain = domain});
   REQUIRE(again.file.graph == out);
   REQUIRE(again.notes.empty());
   return result;

@@ -314,8 +314,11 @@ LM_API lm_status lm_graph_read(const char* path, int32_t dimension, int32_t poin
 /* Writes .poly, in the plane also .obj, in space .smesh: whole, or not at all. */
 LM_API lm_status lm_graph_write(lm_handle graph, const char* path);
 /* A graph whose lines and polygons meet only at common points, from one where they cross, touch or
- * overlap. domain: as in lm_options, or NULL. Its texts say what was done. */
-LM_API lm_status lm_graph_repair(lm_handle graph, const double* domain, lm_handle* repaired);
+ * overlap. domain: as in lm_options, or NULL. tolerance: what is closer is made to touch (0: what
+ * rounding does not tell apart), or NULL: 0, in space 2^-20 of the side of the meshing box. Its
+ * texts say what was done. */
+LM_API lm_status lm_graph_repair(lm_handle graph, const double* domain, const double* tolerance,
+                                 lm_handle* repaired);
 /* In space: a graph whose polygons of one plane and one marker are merged where they meet. */
 LM_API lm_status lm_graph_merge(lm_handle graph, lm_handle* merged);
 

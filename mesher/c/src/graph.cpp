@@ -298,8 +298,12 @@ std::optional<mesher::Box<D>> box_at(const double* domain) {
 }
 
 template <int D>
-void repair(const GraphFile<D>& file, const double* domain, lm_handle* handle) {
-  auto repaired = with_locations(file, [&] { return mesher::repair(file, box_at<D>(domain)); });
+void repair(const GraphFile<D>& file, const double* domain, const double* tolerance,
+            lm_handle* handle) {
+  mesher::RepairOptions<D> options;
+  options.domain = box_at<D>(domain);
+  if (tolerance != nullptr) options.tolerance = *tolerance;
+  auto repaired = with_locations(file, [&] { return mesher::repair(file, options); });
   std::vector<std::string> notes;
   for (const auto& note : repaired.notes) notes.push_back(note.text());
   make_object<GraphObject>(handle, std::move(repaired.file), std::move(notes));
@@ -535,11 +539,12 @@ lm_status lm_graph_write(lm_handle graph, const char* path) {
   });
 }
 
-lm_status lm_graph_repair(lm_handle graph, const double* domain, lm_handle* repaired) {
+lm_status lm_graph_repair(lm_handle graph, const double* domain, const double* tolerance,
+                          lm_handle* repaired) {
   return guarded([&] {
     require_pointer(repaired, "repaired");
     const Reading<GraphObject> object(graph);
-    std::visit([&](const auto& file) { repair(file, domain, repaired); }, object->file);
+    std::visit([&](const auto& file) { repair(file, domain, tolerance, repaired); }, object->file);
   });
 }
 

@@ -18,9 +18,10 @@ namespace mesher {
 //   for (const auto& note : repaired.notes) std::puts(note.text().c_str());
 //   ... repaired.file.graph ...
 //
-// Parts closer than a tolerance are made to touch. The tolerance is 2^-44 of the side of the
-// meshing box (for a map of the Earth in degrees: 10^-10 of a degree), and at least 16 units in the
-// last place of the largest coordinate. The box is that of Options::domain.
+// Parts closer than a tolerance are made to touch. The least tolerance, taken if none is given, is
+// 2^-44 of the side of the meshing box (for a map of the Earth in degrees: 10^-10 of a degree), and
+// at least 16 units in the last place of the largest coordinate. The box is that of
+// Options::domain.
 //
 // Guarantees:
 //   (1) two pieces of lines meet at most in a common end, exactly; no piece occurs twice; a point
@@ -90,23 +91,37 @@ struct Repaired {
   GraphFile<D> file;  ///< new elements have the file position of the element that they come from;
                       ///< new points have none
   std::vector<RepairNote<D>> notes;  ///< by kind, then by ids
-  double tolerance = 0;              ///< input units
-  /// The largest distance of the new from the old features, and of the old from the new.
+  double tolerance = 0;              ///< input units: what was made to touch at first
+  /// The largest distance of the new from the old features, and of the old from the new, but for
+  /// what is dropped.
   double deviation = 0;
 };
 
-/// Repairs a graph. `domain`: of the Options that it will be meshed with; default: snapped_domain
-/// of its points. Positions that `file` does not have are unknown.
+/// How much a repair makes touch.
+template <int D>
+struct RepairOptions {
+  /// Of the Options that the graph will be meshed with; default: snapped_domain of its points.
+  std::optional<Box<D>> domain{};
+  /// Parts closer than this are made to touch; in input units. If it is less than the least
+  /// tolerance, as 0 is, that is taken. Default: the least one in the plane, in space
+  /// kDefaultRepairShare of the box's side. At most kLargestRepairShare of it.
+  std::optional<double> tolerance{};
+};
+/// What models with coordinates of six digits tell apart.
+inline constexpr double kDefaultRepairShare = 0x1p-20;
+inline constexpr double kLargestRepairShare = 0x1p-6;
+
+/// Repairs a graph. Positions that `file` does not have are unknown.
 /// Throws: Error (not_finite, magnitude, outside_domain, repeated_id, unknown_id, wrong_count: of
 /// attributes) for a graph that cannot be repaired; Error(bad_option) for a domain that cannot be
-/// meshed; Error(too_close) if kRepairRounds rounds are not enough.
+/// meshed, or a tolerance that is negative, not finite or too large; Error(too_close) if
+/// kRepairRounds rounds are not enough.
 /// Cost: O((n + c) log L/s) for n pieces of lines and c crossings, if lines are about as long as
 /// they are far apart or lie side by side (10^5 segments that cross 10^5 times: 3 s); more for long
 /// lines in all directions. The worst case is many lines that cross at one position: O(n^1.5 log
 /// L/s).
-[[nodiscard]] Repaired<2> repair(const GraphFile<2>& file,
-                                 const std::optional<Box<2>>& domain = {});
-[[nodiscard]] Repaired<2> repair(const Graph<2>& pslg, const std::optional<Box<2>>& domain = {});
+[[nodiscard]] Repaired<2> repair(const GraphFile<2>& file, const RepairOptions<2>& options = {});
+[[nodiscard]] Repaired<2> repair(const Graph<2>& pslg, const RepairOptions<2>& options = {});
 
 /// The largest number of rounds of a repair.
 inline constexpr int kRepairRounds = 32;
@@ -120,16 +135,20 @@ inline constexpr int kRepairRounds = 32;
 //   for (const auto& note : repaired.notes) std::puts(note.text().c_str());
 //   ... repaired.file.graph ...
 //
-// Parts closer than a tolerance are made to touch. The tolerance is 2^-42 of the side of the
-// meshing box, and at least 64 units in the last place of the largest coordinate. The box is that
-// of Options::domain.
+// Parts closer than a tolerance are made to touch, where that comes to an end soon: to bend what is
+// there makes other parts touch. What is left is done with a tolerance that is 64 times less, and
+// so on, down to the least one: 2^-42 of the side of the meshing box, and at least 64 units in the
+// last place of the largest coordinate. The box is that of Options::domain. (Where surfaces whose
+// coordinates were rounded touch, with the least tolerance they cross each other in thousands of
+// lines, at distances and angles that are all rounding; a mesh of that has many times the vertices,
+// and takes as long.)
 //
 // Guarantees:
 //   (1) a Mesher accepts the result, unless angles are too small for doubles: the repair ends with
 //       the tests of the Mesher, and an Error if they find a fault;
 //   (2) points that are kept stay where they were, bit for bit, with their ids, markers and
 //       attributes;
-//   (3) segments and polygons cover the same set as before up to `deviation`, a few tolerances; a
+//   (3) segments and polygons cover the same set as before up to `deviation`, some tolerances; a
 //       polygon that is not flat covers what the triangles between its points cover. Holes and
 //       regions stay;
 //   (4) a complex without faults is returned as it is, so repair(repair(x)) is repair(x);
@@ -159,17 +178,15 @@ inline constexpr int kRepairRounds = 32;
 //                attributes interpolated linearly along an edge.
 //   dropping     Segments without length and polygons without area are dropped.
 
-/// Repairs a complex. `domain`: of the Options that it will be meshed with; default: snapped_domain
-/// of its points. Positions that `file` does not have are unknown.
+/// Repairs a complex. Positions that `file` does not have are unknown.
 /// Throws: Error (not_finite, magnitude, outside_domain, repeated_id, unknown_id, wrong_count: of
 /// attributes) for a complex that cannot be repaired; Error(bad_option) for a domain that cannot be
-/// meshed; Error(not_flat) for a polygon with holes or more than 256 corners that is so bent that
-/// its edges cross in every view; Error(too_close) if twice kRepairRounds rounds are not enough, or
-/// nearly parallel parts cannot be told apart.
+/// meshed, or a tolerance as in the plane; Error(not_flat) for a polygon with holes or more than
+/// 256 corners that is so bent that its edges cross in every view; Error(too_close) if twice
+/// kRepairRounds rounds are not enough, or nearly parallel parts cannot be told apart.
 /// Cost: O((n + c) log L/s) for n edges and c crossings, if polygons are about as large as they are
 /// far apart.
-[[nodiscard]] Repaired<3> repair(const GraphFile<3>& file,
-                                 const std::optional<Box<3>>& domain = {});
-[[nodiscard]] Repaired<3> repair(const Graph<3>& plc, const std::optional<Box<3>>& domain = {});
+[[nodiscard]] Repaired<3> repair(const GraphFile<3>& file, const RepairOptions<3>& options = {});
+[[nodiscard]] Repaired<3> repair(const Graph<3>& plc, const RepairOptions<3>& options = {});
 
 }  // namespace mesher

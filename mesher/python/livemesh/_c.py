@@ -131,7 +131,7 @@ _SIGNATURES = {
     "graph_add_polyline": "hzppqp", "graph_add_polygon": "hppp", "graph_add_faces": "hzppppp",
     "graph_add_soup": "hzppp", "graph_add_holes": "hzppp", "graph_add_regions": "hzppppp",
     "graph_dimension": "hp", "graph_array": "hip", "graph_read": "siip", "graph_write": "hs",
-    "graph_repair": "hpp", "graph_merge": "hp",
+    "graph_repair": "hppp", "graph_merge": "hp",
     "sizes_samples": "izppp", "sizes_function": "iSpddp", "sizes_read": "sip",
     "mesh_make": "hppp", "mesh_describe": "hp", "mesh_array": "hip", "mesh_quality": "hip",
     "mesh_write": "hs", "mesh_write_as": "hsp", "mesh_name_count": "hp", "mesh_name_get": "hzp",

@@ -109,10 +109,14 @@ class Graph:
         """Writes .poly, in the plane also .obj, in space .smesh: whole, or not at all."""
         self._call(c.graph_write, path_of(path))
 
-    def repaired(self) -> "Graph":
+    def repaired(self, tolerance: Optional[float] = None) -> "Graph":
         """A graph whose lines and polygons meet only at common points, from one where they cross,
-        touch or overlap. Its `notes` say what was done."""
-        return Graph._of(_c.new(c.graph_repair, self._handle.value, None))
+        touch or overlap. Its `notes` say what was done.
+
+        tolerance: what is closer is made to touch; 0: what rounding does not tell apart; None: 0,
+        in space 2**-20 of the side of the meshing box."""
+        at = None if tolerance is None else byref(ctypes.c_double(tolerance))
+        return Graph._of(_c.new(c.graph_repair, self._handle.value, None, at))
 
     def merged(self) -> "Graph":
         """In space: adjacent polygons of one plane and one marker are one polygon."""

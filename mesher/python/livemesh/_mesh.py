@@ -368,6 +368,7 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
          rho: Optional[float] = None, min_dihedral: Optional[float] = None,
          max_area: Optional[float] = None, max_volume: Optional[float] = None, size: Any = None,
          growth: Optional[float] = None, periodic: Any = None, repair: bool = False,
+         repair_tolerance: Optional[float] = None,
          merge: bool = True, region_limits: bool = True, no_flat: bool = True,
          extent: str = "enclosed", bounds: Any = None,
          algorithm: str = "automatic", order: int = 1,
@@ -391,8 +392,9 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
     "refine", "svr", "gap_balls". max_vertices: more are an error. order: 2 for a mesh of second
     order, see `Mesh`.
 
-    repair: lines and polygons may cross, touch and overlap. progress: called with a `Progress`; the
-    run stops if it returns False. timeout: seconds. Ctrl-C stops it, too.
+    repair: lines and polygons may cross, touch and overlap; repair_tolerance: see
+    `Graph.repaired`. progress: called with a `Progress`; the run stops if it returns False.
+    timeout: seconds. Ctrl-C stops it, too.
 
     Raises: GeometryError, Cancelled, MemoryError.
 
@@ -407,7 +409,7 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
                      polygon_markers=polygon_markers, holes=holes, regions=regions,
                      point_markers=point_markers)
     if repair:
-        graph = graph.repaired()
+        graph = graph.repaired(repair_tolerance)
     lo = hi = np.zeros(graph.dimension)
     if callable(size) and not isinstance(size, Sizes):
         at = graph.points

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Optional, Tuple, 
 import numpy as np
 
 from ._c import c
-from ._errors import Error, Feature, GeometryError
+from ._errors import Cancelled, Error, Feature, GeometryError
 from ._graph import Graph, polygon_struct
 from ._sizes import Sizes
 
@@ -372,6 +372,8 @@ class View:
         if status == 200:
             return
         answer = json.loads(text)
+        if answer["code"] == "cancelled":
+            raise Cancelled(answer["text"], "cancelled")
         at = np.array(answer["places"], float).reshape(-1, 3)[:, :self._dimension]
         raise GeometryError(answer["text"], answer["code"],
                             [Feature(kind, number) for kind, number in answer["features"]], at)
@@ -413,7 +415,8 @@ class View:
 
         Raises: GeometryError with the code "conflict" if something was edited in the page, too, in
         another way; with `force` the live mesh prevails. GeometryError if the page's mesh refuses
-        the edits. ValueError for limits of size that a script cannot have.
+        the edits. Cancelled if it is stopped in the page. ValueError for limits of size that a
+        script cannot have.
         """
         page, page_limits = self._read()
         now, limits = _input_of(self._live.graph()), self._live._limits_now()

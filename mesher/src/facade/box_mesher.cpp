@@ -10,6 +10,7 @@
 #include "facade/tiled_plane_state.hpp"
 #include "facade/tiled_state.hpp"
 #include "facade/whole_change.hpp"
+#include "geometry/input_point.hpp"
 #include "live/live_arrays.hpp"
 #include "mesher/predicates.hpp"
 #include "mesher/reports.hpp"
@@ -107,7 +108,9 @@ void BoxMesher<D>::Impl::insert_line(LineId id, const detail::LinePoints& points
                 {mesher::Feature(id)});
   }
   const auto same = std::adjacent_find(points.begin(), points.end());
-  if (same != points.end()) detail::fail_zero_length(id, *same);
+  if (same != points.end()) {
+    detail::fail_zero_length(id, *same, detail::places_of(this->points.place(*state, *same)));
+  }
   lines.set(id, points);
 }
 
@@ -134,7 +137,9 @@ void BoxMesher<D>::Impl::insert_polygon(const Polygon& polygon) {
   if (polygons.find(polygon.id) != nullptr) {
     refuse(ErrorCode::repeated_id, "polygon " + id_text(polygon.id) + " is there already");
   }
-  if constexpr (D == 3) detail::require_loops(polygon);
+  if constexpr (D == 3) {
+    detail::require_loops(polygon, [&](PointId p) { return points.place(*state, p); });
+  }
   polygons.set(polygon.id, polygon);
 }
 

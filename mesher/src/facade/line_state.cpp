@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "geometry/input_point.hpp"
 #include "program/plane_input.hpp"
 #include "program/space_input.hpp"
 #include "program/world_impl.hpp"
@@ -21,10 +22,11 @@ void for_each_part(const LinePoints* points, Visit&& visit) {
 
 }  // namespace
 
-void fail_in_use(PointId point, const std::string& what, const mesher::Feature& user) {
+void fail_in_use(PointId point, const std::string& what, const mesher::Feature& user,
+                 std::vector<Position> places) {
   throw Error(ErrorCode::point_in_use,
               "point " + id_text(point) + " cannot go: it is " + what + " " + text_of(user), {},
-              {mesher::Feature(point), user});
+              {mesher::Feature(point), user}, std::move(places));
 }
 
 template <int D>
@@ -87,7 +89,7 @@ void LineState<D>::require_unused(PointId id, VertexHandle v) const {
       user = line;
     }
   });
-  if (user) fail_in_use(id, "an end of", *user);
+  if (user) fail_in_use(id, "an end of", *user, places_of(this->place(id)));
 }
 
 template <int D>

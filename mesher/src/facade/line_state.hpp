@@ -20,8 +20,9 @@
 
 namespace mesher::detail {
 
-/// Throws: Error(point_in_use). `what` it is of the user: "an end of".
-[[noreturn]] void fail_in_use(PointId point, const std::string& what, const mesher::Feature& user);
+/// Throws: Error(point_in_use). `what` it is of the user: "an end of"; `places`: where it is.
+[[noreturn]] void fail_in_use(PointId point, const std::string& what, const mesher::Feature& user,
+                              std::vector<Position> places);
 
 template <int D>
 using NamesOf = std::conditional_t<D == 2, Names, SpaceNames>;

@@ -82,6 +82,12 @@ class HandlesById {
     const auto it = by_id_.find(id);
     return it == by_id_.end() ? VertexHandle{0} : it->second;
   }
+  // Nothing if there is no such point.
+  template <int D>
+  [[nodiscard]] std::optional<Point<D>> place(PointId id, const World<D>& world) const {
+    const VertexHandle v = (*this)(id);
+    return v == 0 ? std::nullopt : std::optional(world.vertices.pool()[v].p);
+  }
 
  private:
   std::unordered_map<PointId, VertexHandle> by_id_;
@@ -94,7 +100,9 @@ std::vector<detail::SegmentHandle> add_segments(const std::vector<Segment>& segm
                                                 AnyNames& names) {
   std::vector<detail::SegmentHandle> added;
   for (const Segment& s : segments) {
-    if (s.from == s.to) detail::fail_zero_length(s.id, s.from);
+    if (s.from == s.to) {
+      detail::fail_zero_length(s.id, s.from, detail::places_of(handle_of.place(s.from, world)));
+    }
     const auto end = [&](PointId id) {
       const VertexHandle v = handle_of(id);
       return v != 0 ? v : detail::fail_no_end(id, s.id);
@@ -347,7 +355,7 @@ SpaceInputNames add_features(const std::vector<Segment>& segments,
   const auto edges_come = add_segments<3>(segments, handle_of, run.world(), names);
   std::vector<detail::PolygonHandle> polygons_come;
   for (const Polygon& polygon : polygons) {
-    detail::require_loops(polygon);
+    detail::require_loops(polygon, [&](PointId p) { return handle_of.place(p, run.world()); });
     const detail::Polygon& f =
         detail::add_polygon(run.world(), polygon.id, detail::parts_of(polygon, handle_of), names);
     names.name(f, polygon.id);

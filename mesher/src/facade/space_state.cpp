@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "geometry/input_point.hpp"
 #include "program/space_input.hpp"
 #include "program/world_impl.hpp"
 #include "space/parts_in_mesh.hpp"
@@ -57,7 +58,7 @@ void SpaceState::require_unused(PointId id, VertexHandle v) const {
     const PolygonId polygon = polygon_names_.was(f);
     if (!user || polygon < *user) user = polygon;
   }
-  if (user) fail_in_use(id, "on", *user);
+  if (user) fail_in_use(id, "on", *user, places_of(place(id)));
 }
 
 void SpaceState::add_noted() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,12 @@ namespace mesher::detail {
 /// "(x, y)", "(x, y, z)", digits that read back to the same doubles.
 template <std::size_t N>
 [[nodiscard]] std::string place_text(const std::array<double, N>& p);
+
+/// The place, for an error; nothing if it is not known.
+template <std::size_t N>
+[[nodiscard]] std::vector<Position> places_of(const std::optional<std::array<double, N>>& p) {
+  return p ? std::vector<Position>{position_of(*p)} : std::vector<Position>();
+}
 
 /// Throws: Error (not_finite, magnitude).
 template <std::size_t N>

@@ -91,10 +91,10 @@ void fail_repeated(LineId line, LineId other, const Segment& s) {
               {position_of(s.place_a), position_of(s.place_b)});
 }
 
-void fail_zero_length(LineId line, PointId point) {
+void fail_zero_length(LineId line, PointId point, std::vector<Position> places) {
   throw Error(ErrorCode::zero_length,
               "segment " + id_text(line) + " goes from point " + id_text(point) + " to itself", {},
-              {mesher::Feature(line), mesher::Feature(point)});
+              {mesher::Feature(line), mesher::Feature(point)}, std::move(places));
 }
 
 VertexHandle fail_no_end(PointId point, LineId line) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "index/features.hpp"
 #include "mesher/error.hpp"
@@ -44,7 +45,7 @@ template <class S>
 
 /// Throws: Error, as the name says, with the ids of both.
 [[noreturn]] void fail_repeated(LineId line, LineId other, const Segment& s);
-[[noreturn]] void fail_zero_length(LineId line, PointId point);
+[[noreturn]] void fail_zero_length(LineId line, PointId point, std::vector<Position> places);
 [[noreturn]] VertexHandle fail_no_end(PointId point, LineId line);  // unknown_id
 
 /// A segment and a feature that are too close to each other, near a piece that the feature crowds.

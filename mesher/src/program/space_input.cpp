@@ -7,23 +7,35 @@
 
 namespace mesher::detail {
 
-namespace {}  // namespace
+namespace {
 
-void require_loops(const mesher::Polygon& polygon) {
-  const auto fail = [&](const std::string& what, std::vector<mesher::Feature> features) {
+// Of the first of the points whose place is known.
+std::vector<Position> first_place(const std::vector<PointId>& points,
+                                  const PlaceOfPoint& place_of) {
+  for (const PointId p : points) {
+    if (const auto at = place_of(p)) return places_of(at);
+  }
+  return {};
+}
+
+}  // namespace
+
+void require_loops(const mesher::Polygon& polygon, const PlaceOfPoint& place_of) {
+  const auto fail = [&](const std::string& what, std::vector<mesher::Feature> features,
+                        const std::vector<PointId>& where) {
     features.insert(features.begin(), mesher::Feature(polygon.id));
     throw Error(ErrorCode::bad_polygon, "polygon " + id_text(polygon.id) + " " + what, {},
-                std::move(features));
+                std::move(features), first_place(where, place_of));
   };
-  if (polygon.loops.empty()) fail("has no loop", {});
+  if (polygon.loops.empty()) fail("has no loop", {}, {});
   for (const auto& loop : polygon.loops) {
-    if (loop.size() < 3) fail("has a loop of fewer than three points", {});
+    if (loop.size() < 3) fail("has a loop of fewer than three points", {}, loop);
     std::vector<PointId> sorted = loop;
     std::sort(sorted.begin(), sorted.end());
     const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
     if (twice != sorted.end()) {
       fail("has a loop that goes along point " + id_text(*twice) + " twice",
-           {mesher::Feature(*twice)});
+           {mesher::Feature(*twice)}, {*twice});
     }
   }
   for (const auto& [a, b] : polygon.edges) {
@@ -31,7 +43,7 @@ void require_loops(const mesher::Polygon& polygon) {
     throw Error(ErrorCode::zero_length,
                 "an edge in polygon " + id_text(polygon.id) + " goes from point " + id_text(a) +
                     " to itself",
-                {}, {mesher::Feature(polygon.id), mesher::Feature(a)});
+                {}, {mesher::Feature(polygon.id), mesher::Feature(a)}, first_place({a}, place_of));
   }
 }
 

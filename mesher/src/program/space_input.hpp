@@ -1,6 +1,8 @@
 // Segments and polygons of the input put into the program's world, traced or not, and judged there.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <unordered_set>
 #include <vector>
@@ -12,8 +14,11 @@
 
 namespace mesher::detail {
 
+/// Where a point is, if it is known.
+using PlaceOfPoint = std::function<std::optional<Point<3>>(PointId)>;
+
 /// Throws: Error as Mesher::insert_polygon, of what can be told by the ids alone.
-void require_loops(const mesher::Polygon& polygon);
+void require_loops(const mesher::Polygon& polygon, const PlaceOfPoint& place_of);
 
 /// What a Mesher says of points, segments and polygons before it meshes them, by the ids of the
 /// points. Throws: Error as it does. Cost: O(n log L/s).

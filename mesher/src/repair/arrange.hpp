@@ -23,7 +23,10 @@ int arrange(Drawing<2>& drawing);
 /// through polygons, declares what lies on polygons, joins polygons along the lines in which they
 /// cross, and leaves to the first of several what they cover together; until there is nothing to be
 /// done. `names`: of facets. Returns the number of rounds.
-/// Throws: Error(too_close) if twice kRepairRounds do not do; Error(not_flat).
-int arrange(Drawing<3>& drawing, const std::vector<PolygonId>& names);
+/// Begins with the drawing's tolerance. Where that is not the `least`, only so many rounds are made
+/// with it, and what is left to be done, or cannot be, is done with less and less: to bend what is
+/// there makes other parts touch, and that need not come to an end soon with a large tolerance.
+/// Throws: Error(too_close) if twice kRepairRounds do not do with the least; Error(not_flat).
+int arrange(Drawing<3>& drawing, const std::vector<PolygonId>& names, double least);
 
 }  // namespace mesher::detail

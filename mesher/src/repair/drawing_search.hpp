@@ -1,7 +1,7 @@
 // What is near what in a drawing in space, within the tolerance; and all that has come since.
 #pragma once
 
-#include <algorithm>
+#include <cstdint>
 #include <new>
 #include <vector>
 
@@ -18,10 +18,6 @@ class DrawingSearch {
   [[nodiscard]] VertexHandle last_point() const {
     return static_cast<VertexHandle>(drawing_.places().size());
   }
-  [[nodiscard]] EdgeHandle last_edge() const {
-    return static_cast<EdgeHandle>(store_.edges().size());
-  }
-  [[nodiscard]] PolygonHandle last_polygon() const { return store_.polygons().last(); }
 
   /// The handles of live edges, or polygons, near a feature, and others; ascending.
   template <class F>
@@ -50,21 +46,25 @@ class DrawingSearch {
       return false;
     });
   }
-  /// Calls visit(feature) for the live ones from a handle on, in their order.
+  /// Calls visit(feature) for the live ones of these.
   template <class Visit>
-  void visit_edges(EdgeHandle from, Visit&& visit) {
-    for (EdgeHandle h = std::max<EdgeHandle>(from, 1); h <= last_edge(); ++h) {
-      if (store_.edges()[h].alive) visit(store_.edges()[h]);
-    }
+  void visit_edges(const std::vector<EdgeHandle>& handles, Visit&& visit) {
+    visit_live(store_.edges(), handles, visit);
   }
   template <class Visit>
-  void visit_polygons(PolygonHandle from, Visit&& visit) {
-    for (PolygonHandle h = std::max<PolygonHandle>(from, 1); h <= last_polygon(); ++h) {
-      if (store_.polygons()[h].alive) visit(store_.polygons()[h]);
-    }
+  void visit_polygons(const std::vector<PolygonHandle>& handles, Visit&& visit) {
+    visit_live(store_.polygons(), handles, visit);
   }
 
  private:
+  template <class Pool, class Visit>
+  static void visit_live(const Pool& pool, const std::vector<std::uint32_t>& handles,
+                         Visit&& visit) {
+    for (const std::uint32_t h : handles) {
+      if (pool[h].alive) visit(pool[h]);
+    }
+  }
+
   Drawing<3>& drawing_;
   FeatureStore& store_;
 };

@@ -66,6 +66,13 @@ class DrawnPoints {
   DrawnPoints& operator=(const DrawnPoints&) = default;
   ~DrawnPoints() = default;
 
+  /// Requires: it is less than before.
+  void set_tolerance(double tolerance) {
+    PlaceGrid<D> finer(grid_.origin(), 2 * tolerance);
+    for (const Point<D>& p : places()) finer.add(p);
+    grid_ = std::move(finer);
+    tolerance_ = tolerance;
+  }
   /// The next point.
   Spot add_place(const Point<D>& p) {
     grid_.add(p);

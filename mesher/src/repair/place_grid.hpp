@@ -50,6 +50,7 @@ class PlaceGrid {
     return all;
   }
   [[nodiscard]] const std::vector<Point<D>>& places() const noexcept { return places_; }
+  [[nodiscard]] const Point<D>& origin() const noexcept { return origin_; }
   [[nodiscard]] double reach() const noexcept { return reach_; }
 
  private:

@@ -53,7 +53,6 @@ Repaired<D> Redrawing<D>::redraw() {
   draw_polygons();
   copy_rest();
   sort_notes();
-  out_.tolerance = drawing_.tolerance();
   out_.deviation = std::sqrt(out_.deviation);
   return std::move(out_);
 }

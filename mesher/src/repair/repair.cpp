@@ -15,6 +15,7 @@
 #include "repair/arrange.hpp"
 #include "repair/redraw.hpp"
 #include "rules/mesh_box.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 
@@ -56,40 +57,51 @@ void require_attributes(const Graph<D>& input) {
                                           std::to_string(n) + " each");
 }
 
-// What can be repaired, and the box that it is repaired in. Throws: Error (not_finite, magnitude,
-// outside_domain, bad_option).
+// Throws: Error (not_finite, magnitude, outside_domain).
 template <int D>
-detail::MeshBox<D> box_of_points(const GraphFile<D>& file, const std::optional<Box<D>>& given) {
+void require_in(const GraphFile<D>& file, const Box<D>& domain) {
   const auto& points = file.graph.points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    try {
+      detail::check_point(points[i].at, domain, points[i].id);
+    } catch (const Error& error) {
+      throw error.at(file.location_of_point(i));
+    }
+  }
+}
+
+// Where it is repaired. Throws: Error (not_finite, magnitude).
+template <int D>
+Box<D> domain_of(const GraphFile<D>& file, const std::optional<Box<D>>& given) {
   Box<D> everywhere;
   everywhere.lo.fill(-0x1p101);
   everywhere.hi.fill(0x1p101);
-  const auto require_in = [&](const Box<D>& domain) {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      try {
-        detail::check_point(points[i].at, domain, points[i].id);
-      } catch (const Error& error) {
-        throw error.at(file.location_of_point(i));
-      }
-    }
-  };
-  require_in(everywhere);
-  const Box<D> domain = given ? *given : snapped_domain<D>(places_of(file.graph));
-  const detail::MeshBox<D> box = detail::mesh_box(Options<D>{.domain = domain});
-  require_in(domain);
-  return box;
+  require_in(file, everywhere);
+  return given ? *given : snapped_domain<D>(places_of(file.graph));
 }
 
-// What is as close is made to touch: a share of the box's side, and some units in the last place
-// of the largest coordinate: places near the box's corners are rounded to these.
+// A share of the box's side, and some units in the last place of the largest coordinate: places
+// near the box's corners are rounded to these.
 template <int D>
-double tolerance_in(const detail::MeshBox<D>& box) {
+double least_tolerance(const detail::MeshBox<D>& box) {
   double largest = 0;
   for (int i = 0; i < D; ++i) {
     largest = std::max({largest, std::abs(box.lo[i]), std::abs(box.hi(i))});
   }
   const double unit = std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
   return std::max(box.side * kShare<D>, kUnits<D> * unit);
+}
+
+// What is as close is made to touch. Throws: Error(bad_option).
+template <int D>
+double tolerance_in(const detail::MeshBox<D>& box, const std::optional<double>& given) {
+  const double least = least_tolerance(box);
+  if (!given) return D == 2 ? least : std::max(least, box.side * kDefaultRepairShare);
+  const double most = box.side * kLargestRepairShare;
+  if (*given >= 0 && *given <= most) return std::max(least, *given);
+  throw Error(ErrorCode::bad_option, "the tolerance of a repair is " + text::to_text(*given) +
+                                         ", not from 0 to " + text::to_text(most) +
+                                         ", a 64th of the side of the meshing box");
 }
 
 void require_parts(const GraphFile<2>& file) { detail::require_ids(file.graph, &file); }
@@ -140,7 +152,7 @@ void prepare(GraphFile<3>& file) {
 // --- What is drawn, until it fits together ---------------------------------------------------
 
 // Rods for all pieces of lines, in an order of their own.
-void arrange(const Graph<2>& pslg, const Drawn<2>& drawn, Drawing<2>& drawing) {
+void arrange(const Graph<2>& pslg, const Drawn<2>& drawn, Drawing<2>& drawing, double) {
   std::vector<detail::Ends> rods;
   for (const Segment& s : segments_of(pslg)) {
     const detail::Ends ends = detail::in_order(drawn.spot(s.from), drawn.spot(s.to));
@@ -152,7 +164,7 @@ void arrange(const Graph<2>& pslg, const Drawn<2>& drawn, Drawing<2>& drawing) {
 }
 
 // Paths and sheets by rank of ids.
-void arrange(const Graph<3>& plc, const Drawn<3>& drawn, Drawing<3>& drawing) {
+void arrange(const Graph<3>& plc, const Drawn<3>& drawn, Drawing<3>& drawing, double least) {
   for (const std::size_t i : detail::ranked(plc.segments)) {
     drawing.add_path({drawn.spot(plc.segments[i].from), drawn.spot(plc.segments[i].to)});
   }
@@ -166,7 +178,7 @@ void arrange(const Graph<3>& plc, const Drawn<3>& drawn, Drawing<3>& drawing) {
     drawing.add_sheet(names.size(), detail::drawn_parts(f, drawn), is_redrawn);
     names.push_back(f.id);
   }
-  detail::arrange(drawing, names);
+  detail::arrange(drawing, names, least);
 }
 
 // What a Mesher says of it.
@@ -196,23 +208,25 @@ void require_sound(const Graph<3>& plc, const Box<3>& domain) {
 }
 
 template <int D>
-Repaired<D> repair_file(GraphFile<D> file, const std::optional<Box<D>>& given) {
+Repaired<D> repair_file(GraphFile<D> file, const RepairOptions<D>& options) {
   add_positions(file);
   prepare(file);
   require_parts(file);
   require_attributes(file.graph);
   if (file.graph.points.empty()) return {file, {}, 0, 0};
-  const detail::MeshBox<D> box = box_of_points(file, given);
-  [[maybe_unused]] const Box<D> domain =  // in the plane arrange() leaves nothing to be found
-      given ? *given : snapped_domain<D>(places_of(file.graph));
-  if constexpr (D == 3) {
-    if (is_sound(file.graph, domain)) return {std::move(file), {}, tolerance_in(box), 0};
+  const Box<D> domain = domain_of(file, options.domain);
+  const detail::MeshBox<D> box = detail::mesh_box(Options<D>{.domain = domain});
+  require_in(file, domain);
+  const double tolerance = tolerance_in(box, options.tolerance);
+  if constexpr (D == 3) {  // in the plane arrange() leaves nothing to be found
+    if (is_sound(file.graph, domain)) return {std::move(file), {}, tolerance, 0};
   }
-  Drawing<D> drawing(box, tolerance_in(box));
+  Drawing<D> drawing(box, tolerance);
   const Drawn<D> drawn = detail::draw_points(file.graph.points, drawing);
-  arrange(file.graph, drawn, drawing);
+  arrange(file.graph, drawn, drawing, least_tolerance(box));
   Repaired<D> repaired = detail::redraw(file, drawing, drawn);
   repaired.file.graph.names = file.graph.names;
+  repaired.tolerance = tolerance;
   if constexpr (D == 3) require_sound(repaired.file.graph, domain);
   return repaired;
 }
@@ -226,17 +240,17 @@ GraphFile<D> file_of(const Graph<D>& graph) {
 
 }  // namespace
 
-Repaired<2> repair(const GraphFile<2>& file, const std::optional<Box<2>>& domain) {
-  return repair_file(file, domain);
+Repaired<2> repair(const GraphFile<2>& file, const RepairOptions<2>& options) {
+  return repair_file(file, options);
 }
-Repaired<3> repair(const GraphFile<3>& file, const std::optional<Box<3>>& domain) {
-  return repair_file(file, domain);
+Repaired<3> repair(const GraphFile<3>& file, const RepairOptions<3>& options) {
+  return repair_file(file, options);
 }
-Repaired<2> repair(const Graph<2>& pslg, const std::optional<Box<2>>& domain) {
-  return repair(file_of(pslg), domain);
+Repaired<2> repair(const Graph<2>& pslg, const RepairOptions<2>& options) {
+  return repair(file_of(pslg), options);
 }
-Repaired<3> repair(const Graph<3>& plc, const std::optional<Box<3>>& domain) {
-  return repair(file_of(plc), domain);
+Repaired<3> repair(const Graph<3>& plc, const RepairOptions<3>& options) {
+  return repair(file_of(plc), options);
 }
 
 }  // namespace mesher

@@ -1,6 +1,8 @@
 // The rules, each with what has come since it was last asked.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <tuple>
 
@@ -18,12 +20,34 @@ namespace {
 
 using Change = Drawing<3>::Change;
 
-// What may be new to a rule: handles from these on.
-struct Seen {
-  VertexHandle point = 1;
-  EdgeHandle edge = 0;
-  PolygonHandle polygon = 0;
+// Handles of features.
+class HandleSet {
+ public:
+  void add(std::uint32_t h) {
+    if (h >= has_.size()) has_.resize(2 * std::size_t{h} + 1);
+    if (!has_[h]) all_.push_back(h);
+    has_[h] = true;
+  }
+  [[nodiscard]] bool has(std::uint32_t h) const { return h < has_.size() && has_[h]; }
+  [[nodiscard]] const std::vector<std::uint32_t>& all() const noexcept { return all_; }
+
+ private:
+  std::vector<bool> has_;
+  std::vector<std::uint32_t> all_;
 };
+
+// What is new to a rule: points from a handle on, edges and polygons.
+struct Newcomers {
+  VertexHandle point = 1;
+  HandleSet edges, polygons;
+};
+
+// With a tolerance that is not the least one: what cannot be done is left to a lesser one; so are
+// new points where edges cross, after some rounds (two long edges at a small angle, and what is cut
+// anew beside them, would get point after point, each some tolerances from the last).
+constexpr int kCoarseRounds = 24;
+constexpr int kRoundsOfCrossings = 6;
+constexpr double kFiner = 64;  // times less is the next tolerance
 
 // Where an edge and another feature meet.
 struct Meeting {
@@ -38,25 +62,64 @@ class Arranging {
   Arranging(Drawing<3>& drawing, const std::vector<PolygonId>& names)
       : drawing_(drawing), store_(drawing.store()), search_(drawing), names_(names) {}
 
-  int arrange() {
-    constexpr int kMost = 2 * kRepairRounds;  // several rules apply one after the other
-    for (int round = 0; round <= kMost; ++round) {
-      drawing_.use_edges();
-      if (drawing_.has_revived()) near_ = crossing_ = lying_ = {};
-      if (lead_through_near() || lead_through_crossings()) continue;
-      if (drawing_.settle(names_)) continue;
-      if (declare_and_pierce() || join_polygons() || part_overlaps()) continue;
-      return round;
+  // What fits together with a tolerance does so with any that is less.
+  int arrange(double least) {
+    int rounds = 0;
+    for (; drawing_.tolerance() > least; begin_finer(least)) {
+      is_last_ = false;
+      if (const auto done = arrange_with(kCoarseRounds)) return rounds + *done;
+      rounds += kCoarseRounds;
     }
+    is_last_ = true;
+    constexpr int kMost = 2 * kRepairRounds;  // several rules apply one after the other
+    if (const auto done = arrange_with(kMost)) return rounds + *done;
     fail_crowded(last_);
   }
 
  private:
+  // Nothing if not all was done.
+  std::optional<int> arrange_with(int most) {
+    for (int round = 0; round <= most; ++round) {
+      use_edges();
+      if (lead_through_near() || lead_through_crossings()) continue;
+      if (drawing_.settle(names_)) continue;
+      if (declare_and_pierce() || join_polygons() || part_overlaps()) continue;
+      return leaves_some_ ? std::nullopt : std::optional(round);
+    }
+    return std::nullopt;
+  }
+  void begin_finer(double least) {
+    drawing_.set_tolerance(std::max(drawing_.tolerance() / kFiner, least));
+    waiting_.clear();
+    leaves_some_ = false;
+    crossing_rounds_ = 0;
+    for (Newcomers* rule : rules()) *rule = {};
+    store_.edges().for_each([&](const Edge& e) {
+      if (store_.users(e) != 0) tell_of(e.self, &Newcomers::edges);
+    });
+    store_.polygons().for_each([&](const Polygon& f) {
+      if (f.alive) tell_of(f.self, &Newcomers::polygons);
+    });
+  }
+  void use_edges() {
+    drawing_.use_edges();
+    const auto arrivals = drawing_.take_arrivals();
+    for (const EdgeHandle e : arrivals.edges) tell_of(e, &Newcomers::edges);
+    for (const PolygonHandle f : arrivals.polygons) tell_of(f, &Newcomers::polygons);
+  }
+  [[nodiscard]] std::array<Newcomers*, 5> rules() {
+    return {&near_, &crossing_, &lying_, &joining_, &overlap_};
+  }
+  void tell_of(std::uint32_t handle, HandleSet Newcomers::*kind) {
+    for (Newcomers* rule : rules()) (rule->*kind).add(handle);
+  }
+  // What is new to a rule; from now on nothing is.
+  [[nodiscard]] Newcomers take(Newcomers& rule) const {
+    return std::exchange(rule, {search_.last_point() + 1, {}, {}});
+  }
+
   [[nodiscard]] const Point<3>& place(VertexHandle v) const { return drawing_.place(v); }
   [[nodiscard]] double most() const { return drawing_.tolerance(); }
-  [[nodiscard]] Seen now() const {
-    return {search_.last_point() + 1, search_.last_edge() + 1, search_.last_polygon() + 1};
-  }
   [[noreturn]] static void fail_crowded(const Point<3>& p) {
     throw Error(ErrorCode::too_close,
                 "what is near " + place_text(p) + " is too close to each other to be repaired");
@@ -65,19 +128,19 @@ class Arranging {
   // --- Edges ---------------------------------------------------------------------------------
 
   bool lead_through_near() {
-    const Seen seen = std::exchange(near_, now());
+    const Newcomers seen = take(near_);
     Change change;
     const auto look_at = [&](const Edge& e, VertexHandle v) {
       if (distance2_to(place(v), e) > most() * most() || !drawing_.may_lead(e, v)) return;
       change.leads[e.self].push_back(v);
       last_ = place(v);
     };
-    search_.visit_edges(seen.edge, [&](const Edge& e) {
+    search_.visit_edges(seen.edges.all(), [&](const Edge& e) {
       search_.visit_points(extent_of(e), [&](VertexHandle v) { look_at(e, v); });
     });
     for (VertexHandle v = seen.point; v <= search_.last_point(); ++v) {
       for (const EdgeHandle h : search_.near<Edge>(extent_of(drawing_.point(v)))) {
-        if (h < seen.edge) look_at(store_.edges()[h], v);
+        if (!seen.edges.has(h)) look_at(store_.edges()[h], v);
       }
     }
     if (change.any()) drawing_.apply(change);
@@ -85,12 +148,12 @@ class Arranging {
   }
 
   bool lead_through_crossings() {
-    const Seen seen = std::exchange(crossing_, now());
+    const Newcomers seen = take(crossing_);
     std::vector<Meeting> meetings;
-    search_.visit_edges(seen.edge, [&](const Edge& e) {
+    search_.visit_edges(seen.edges.all(), [&](const Edge& e) {
       for (const EdgeHandle h : search_.near<Edge>(extent_of(e))) {
         const Edge& t = store_.edges()[h];
-        if ((h >= seen.edge && h <= e.self) || !disjoint(e, t)) continue;
+        if ((seen.edges.has(h) && h <= e.self) || !disjoint(e, t)) continue;
         const auto [x, y] = first_by_place(e, t);
         if (distance2(x->place_a, x->place_b, y->place_a, y->place_b) > most() * most()) continue;
         const Point<3> at = nearest_place(x->place_a, x->place_b, y->place_a, y->place_b);
@@ -98,13 +161,16 @@ class Arranging {
       }
     });
     make_set(meetings);
+    if (!meetings.empty()) ++crossing_rounds_;
+    const bool may_add = is_last_ || crossing_rounds_ <= kRoundsOfCrossings;
     Change change;
     for (const Meeting& m : meetings) {
       const Edge &e = store_.edges()[m.edge], &t = store_.edges()[m.other];
-      const VertexHandle v =
-          meeting_point(m.at, e, [&](VertexHandle w) { return leads(e, w) && leads(t, w); });
+      const auto serves = [&](VertexHandle w) { return leads(e, w) && leads(t, w); };
+      const auto v = meeting_point(m.at, e, may_add, serves);
+      if (!v) continue;
       for (const Edge* x : {&e, &t}) {
-        if (!x->has_end(v)) change.leads[x->self].push_back(v);
+        if (!x->has_end(*v)) change.leads[x->self].push_back(*v);
       }
     }
     if (change.any()) drawing_.apply(change);
@@ -118,19 +184,24 @@ class Arranging {
   [[nodiscard]] bool leads(const Edge& e, VertexHandle v) const {
     return e.has_end(v) || drawing_.may_lead(e, v);
   }
-  // The nearest point that serves, or a new one, on e, if none is near.
+  // The nearest point that serves, or a new one, on e, if none is near; nothing: it is left to a
+  // lesser tolerance.
   template <class Serves>
-  VertexHandle meeting_point(const Point<3>& at, const Edge& e, Serves&& serves) {
+  std::optional<VertexHandle> meeting_point(const Point<3>& at, const Edge& e, bool may_add,
+                                            Serves&& serves) {
     last_ = at;
     const std::vector<VertexHandle> near = drawing_.spots_near(at);
     for (const VertexHandle v : near) {
       if (serves(v)) return v;
     }
-    if (!near.empty()) fail_crowded(at);
-    const VertexHandle v =
-        drawing_.add_spot({allowed(at[0]), allowed(at[1]), allowed(at[2])}, {e.a, e.b});
-    if (!serves(v)) fail_crowded(at);
-    return v;
+    if (near.empty() && may_add) {
+      const VertexHandle v =
+          drawing_.add_spot({allowed(at[0]), allowed(at[1]), allowed(at[2])}, {e.a, e.b});
+      if (serves(v)) return v;
+    }
+    if (is_last_) fail_crowded(at);
+    leaves_some_ = true;
+    return std::nullopt;
   }
   // --- What lies on polygons -----------------------------------------------------------------
 
@@ -144,9 +215,8 @@ class Arranging {
   }
 
   bool declare_and_pierce() {
-    const Seen seen = std::exchange(lying_, now());
+    const Newcomers seen = take(lying_);
     Change change;
-    std::vector<Meeting> meetings;
     const auto look_at_point = [&](VertexHandle v, const Polygon& f) {
       if (!lies_on(v, f)) return;
       change.declared[f.self].points.push_back(v);
@@ -156,60 +226,60 @@ class Arranging {
       if (lies_on(e, f)) change.declared[f.self].edges.emplace_back(e.a, e.b), last_ = e.place_a;
       if (!disjoint(e, f)) return;
       if (const auto at = crossing(e.place_a, e.place_b, f)) {
-        meetings.push_back({*at, e.self, f.self});
+        waiting_.push_back({*at, e.self, f.self});
       }
     };
-    search_.visit_polygons(seen.polygon, [&](const Polygon& f) {
+    search_.visit_polygons(seen.polygons.all(), [&](const Polygon& f) {
       search_.visit_points(extent_of(f), [&](VertexHandle v) { look_at_point(v, f); });
       for (const EdgeHandle h : search_.near<Edge>(extent_of(f)))
         look_at_edge(store_.edges()[h], f);
     });
     for (VertexHandle v = seen.point; v <= search_.last_point(); ++v) {
       for (const PolygonHandle h : search_.near<Polygon>(extent_of(drawing_.point(v)))) {
-        if (h < seen.polygon) look_at_point(v, store_.polygons()[h]);
+        if (!seen.polygons.has(h)) look_at_point(v, store_.polygons()[h]);
       }
     }
-    search_.visit_edges(seen.edge, [&](const Edge& e) {
+    search_.visit_edges(seen.edges.all(), [&](const Edge& e) {
       for (const PolygonHandle h : search_.near<Polygon>(extent_of(e))) {
-        if (h < seen.polygon) look_at_edge(e, store_.polygons()[h]);
+        if (!seen.polygons.has(h)) look_at_edge(e, store_.polygons()[h]);
       }
     });
-    if (change.any()) {  // first: it may be what edges go through
-      lying_ = seen;
-    } else {
-      pierce(meetings, change);
-    }
+    // What lies on polygons comes first: edges may go through it.
+    if (!change.any()) pierce(change);
     if (change.any()) drawing_.apply(change);
     return change.any();
   }
 
-  void pierce(std::vector<Meeting>& meetings, Change& change) {
-    make_set(meetings);
-    for (const Meeting& m : meetings) {
+  void pierce(Change& change) {
+    make_set(waiting_);
+    for (const Meeting& m : std::exchange(waiting_, {})) {
       const Edge& e = store_.edges()[m.edge];
       const Polygon& f = store_.polygons()[m.other];
-      const VertexHandle v = meeting_point(m.at, e, [&](VertexHandle w) {
+      if (!e.alive || !f.alive) continue;  // what there is instead has been looked at
+      const auto serves = [&](VertexHandle w) {
         return leads(e, w) && (f.has(w) || contains(f, place(w)));
-      });
-      if (!e.has_end(v)) change.leads[e.self].push_back(v);
-      if (!f.has(v)) change.declared[f.self].points.push_back(v);
+      };
+      const auto v = meeting_point(m.at, e, true, serves);
+      if (!v) continue;
+      if (!e.has_end(*v)) change.leads[e.self].push_back(*v);
+      if (!f.has(*v)) change.declared[f.self].points.push_back(*v);
     }
   }
 
   // --- Pairs of polygons ---------------------------------------------------------------------
 
   template <class Visit>
-  void visit_pairs(const Seen& seen, Visit&& visit) {
-    search_.visit_polygons(seen.polygon, [&](const Polygon& f) {
+  void visit_pairs(const Newcomers& seen, Visit&& visit) {
+    search_.visit_polygons(seen.polygons.all(), [&](const Polygon& f) {
       for (const PolygonHandle h : search_.near<Polygon>(extent_of(f))) {
-        if (h >= seen.polygon && h <= f.self) continue;
+        if (seen.polygons.has(h) && h <= f.self) continue;
         visit(f, store_.polygons()[h]);
       }
     });
   }
 
   bool join_polygons() {
-    const Seen seen = std::exchange(joining_, now());
+    const Newcomers seen = take(joining_);
     Change change;
     visit_pairs(seen, [&](const Polygon& f, const Polygon& g) {
       if (lie_in_one_plane(f, g)) return;
@@ -234,7 +304,7 @@ class Arranging {
   // Each loses to all before it in the order of facets. Where it is not clear
   // what is on both, both are cut into triangles: equal ones are one then.
   bool part_overlaps() {
-    const Seen seen = std::exchange(overlap_, now());
+    const Newcomers seen = take(overlap_);
     const auto key = [&](const Polygon& f) {
       return std::pair(drawing_.sheet_of(f.self).facet, f.self);
     };
@@ -269,8 +339,9 @@ class Arranging {
       drawing_.cut_up(f);
       any = true;
     }
-    if (!any) fail_crowded(last_);
-    return true;
+    if (!any && is_last_) fail_crowded(last_);
+    leaves_some_ = leaves_some_ || !any;
+    return any;
   }
   [[nodiscard]] bool is_triangle(PolygonHandle h) const {
     const Polygon& f = store_.polygons()[h];
@@ -281,14 +352,18 @@ class Arranging {
   FeatureStore& store_;
   DrawingSearch search_;
   const std::vector<PolygonId>& names_;
-  Seen near_, crossing_, lying_, joining_, overlap_;
+  Newcomers near_, crossing_, lying_, joining_, overlap_;
+  std::vector<Meeting> waiting_;  // edges that go through polygons, when they were found
+  bool is_last_ = true;           // the tolerance is the least
+  bool leaves_some_ = false;      // to a lesser one
+  int crossing_rounds_ = 0;
   Point<3> last_{};  // where something was done
 };
 
 }  // namespace
 
-int arrange(Drawing<3>& drawing, const std::vector<PolygonId>& names) {
-  return Arranging(drawing, names).arrange();
+int arrange(Drawing<3>& drawing, const std::vector<PolygonId>& names, double least) {
+  return Arranging(drawing, names).arrange(least);
 }
 
 }  // namespace mesher::detail

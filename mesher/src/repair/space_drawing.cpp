@@ -43,13 +43,11 @@ void Drawing<3>::use_edges() {
     wanted[e] = true;
   });
   used_.resize(wanted.size());
-  known_.resize(wanted.size());
   for (EdgeHandle h = 0; h < wanted.size(); ++h) {
     if (wanted[h] == used_[h]) continue;
     const Edge& e = store_.edges()[h];
     if (wanted[h]) {
-      has_revived_ = has_revived_ || known_[h];
-      known_[h] = true;
+      arrivals_.edges.push_back(h);
       store_.use(store_.record(e.a, e.b));
     } else {
       store_.leave(store_.record(e.a, e.b));
@@ -184,6 +182,7 @@ void Drawing<3>::put(std::size_t i) {
     return;
   }
   store_.put(f);
+  arrivals_.polygons.push_back(f.self);
   sheets_[i].record = f.self;
   sheet_of_.emplace(f.self, i);
 }

@@ -76,10 +76,16 @@ class Drawing<3> : public DrawnPoints<3> {
     return DrawnPoints::may_lead(e.a, e.b, v);
   }
 
+  /// From now on less is made to touch. Points stay where they are.
+  using DrawnPoints::set_tolerance;
   /// Makes the edges live that sheets and paths have, and no others.
   void use_edges();
-  /// Whether edges have come to life since it was asked, that had gone.
-  [[nodiscard]] bool has_revived() noexcept { return std::exchange(has_revived_, false); }
+  /// Edges and polygons that have come to life since it was asked; some may have gone again.
+  struct Arrivals {
+    std::vector<EdgeHandle> edges;
+    std::vector<PolygonHandle> polygons;
+  };
+  [[nodiscard]] Arrivals take_arrivals() noexcept { return std::exchange(arrivals_, {}); }
   /// Leads edges, and declares; what is changed has yet to be settled.
   void apply(const Change& change);
   /// Whether there is a way to settle a live polygon of which this goes around the rest.
@@ -114,8 +120,8 @@ class Drawing<3> : public DrawnPoints<3> {
   std::vector<Sheet> sheets_;
   std::vector<Path> paths_;
   std::unordered_map<PolygonHandle, std::size_t> sheet_of_;
-  std::vector<bool> used_, known_;  // by handles of edges: now, and ever
-  bool has_revived_ = false;
+  std::vector<bool> used_;  // by handles of edges
+  Arrivals arrivals_;
   std::vector<std::pair<std::size_t, std::size_t>> losses_;
 };
 

@@ -98,6 +98,7 @@ function command(what) {
 function show_lost(lost) {
   $('lost').hidden = !lost;
   if (!lost) return;
+  show_under_way(null);
   if (lost_at === null && state) lost_at = state.updates;
   $('back').hidden = true;
   const next = `looking for it again in ${shown(lost.wait / 1000)} s`;
@@ -106,6 +107,22 @@ function show_lost(lost) {
     : `The server does not answer; ${next}`;
 }
 $('try_now').onclick = () => wire.try_now();
+
+// An update that takes long; null: none does.
+function show_under_way(head) {
+  $('under_way').hidden = !head;
+  $('stop').disabled = Boolean(head && head.stops);
+  if (!head) return;
+  $('under_way_text').textContent = `An update has run for ${shown(head.seconds, 2)} s, ` +
+    `${head.calls} calls` + (head.stops ? '; it is being taken back' : '');
+}
+// Of updates and fresh runs.
+const stop = () => fetch('stop', {method: 'POST'}).catch(() => null);
+$('stop').onclick = () => {
+  $('stop').disabled = true;
+  stop();
+};
+$('stop_fresh').onclick = stop;
 
 // What is behind a server that was gone: the same, or one that was started again.
 function show_back(head) {
@@ -132,6 +149,8 @@ function show_back(head) {
 
 function receive(head, arrays, bytes) {
   const began = performance.now();
+  if (head.kind === 'busy') return show_under_way(head);
+  if (head.kind === 'idle') return show_under_way(null);
   if (head.state) state = head.state;
   if (head.seeds) seeds = head.seeds;
   if (head.limits) show_limits(head.limits);
@@ -192,9 +211,8 @@ function load(head, arrays) {
   selected = null;
   drag = null;
   sent.clear();
-  $('fresh').disabled = false;
+  end_fresh();
   view.load(mesh);
-  $('fresh_result').textContent = '';
   last_update = last_fresh = null;
   rows('update', []);
 }
@@ -233,8 +251,23 @@ function show_figures() {
   rows('update', list);
 }
 
-function show_fresh(head) {
+let fresh_tag = 0;  // of a fresh run that is under way
+function begin_fresh() {
+  fresh_tag = command({do: 'fresh'});
+  if (fresh_tag === 0) return;
+  $('fresh').disabled = true;
+  $('stop_fresh').hidden = false;
+  $('fresh_result').textContent = 'running ...';
+}
+function end_fresh() {
+  fresh_tag = 0;
   $('fresh').disabled = false;
+  $('stop_fresh').hidden = true;
+  $('fresh_result').textContent = '';
+}
+
+function show_fresh(head) {
+  end_fresh();
   last_fresh = head;
   const ratio = last_update ? `${shown(head.seconds / last_update.seconds, 2)} times the last update; `
     : '';
@@ -244,7 +277,7 @@ function show_fresh(head) {
 }
 
 function report(head) {
-  $('fresh').disabled = false;
+  if (fresh_tag && head.tag === fresh_tag) end_fresh();
   const found = {text: head.text, places: head.places || [], features: head.features || [], times: 1};
   const of = [drag, last_drag].find((d) => d && d.tags.has(head.tag));
   if (of) {  // a drag is refused once, at the last place
@@ -873,11 +906,7 @@ $('snap').onchange = () => {
   wake();
 };
 $('next_marked').onclick = go_to_marked;
-$('fresh').onclick = () => {
-  $('fresh').disabled = true;
-  $('fresh_result').textContent = 'running ...';
-  command({do: 'fresh'});
-};
+$('fresh').onclick = begin_fresh;
 $('calls').onchange = () => command({do: 'calls', on: $('calls').checked});
 $('clear_errors').onclick = () => {
   problems = [];

@@ -44,6 +44,19 @@ using mesher::PointId;
 constexpr const char* kPage = "the page";    // where its edits stand
 constexpr const char* kStart = "# start\n";  // of updates of the script with which a view begins
 
+// A value, for as long as this lives.
+class Set {
+ public:
+  Set(bool& of, bool value) : of_(of), before_(std::exchange(of, value)) {}
+  ~Set() { of_ = before_; }
+  Set(const Set&) = delete;
+  Set& operator=(const Set&) = delete;
+
+ private:
+  bool& of_;
+  bool before_;
+};
+
 template <int D>
 class ModelOf final : public Model {
  public:
@@ -70,8 +83,14 @@ class ModelOf final : public Model {
     if (!args.quiet) print_remarks(args_, input_, mesher_.input(), mesher_.domain_mesh());
   }
 
+  void set_meanwhile(Meanwhile meanwhile) override {
+    progress_.set_meanwhile([this, meanwhile = std::move(meanwhile)](const mesher::Progress& p) {
+      return meanwhile(p) || takes_back_;
+    });
+  }
   std::string snapshot() override;
-  Work command(ClientId client, const std::string& text, const Send& send) override;
+  Work command(ClientId client, const std::string& text, const Send& send,
+               bool runs_fresh) override;
   std::string edit(const std::string& script, const Send& send) override;
   void left(ClientId client, const Send& send) override {
     if (drag_ && drag_->client == client) settle(send);
@@ -137,6 +156,7 @@ class ModelOf final : public Model {
   void record(const Edits& edits, Why why, const std::optional<Lines>& back);
   void remember(Why why, Lines again, Lines back);
   Made update(Edits edits);
+  Made take_back(Edits edits);
   void take_back(const Lines& lines, const std::optional<mesher::Options<D>>& limits);
   Work fresh(const Json& tag);
   void watch_calls(const Json& command, const Json& tag, const Send& send);
@@ -162,6 +182,7 @@ class ModelOf final : public Model {
   const std::uint64_t run_ = std::random_device()();  // tells this run from others of the journal
   std::unique_ptr<CallPicture> calls_;                // null: not wanted
   std::uint64_t calls_of_ = 0;                        // the revision of the picture
+  bool takes_back_ = false;                           // what nobody may stop
   std::size_t kept_ = 0;
   std::uint64_t revision_ = 0;
   std::uint64_t started_ = 0;  // updates of the script with which the view begins, in the journal
@@ -308,7 +329,8 @@ std::string ModelOf<D>::edit(const std::string& script, const Send& send) {
 }
 
 template <int D>
-Model::Work ModelOf<D>::command(ClientId client, const std::string& text, const Send& send) {
+Model::Work ModelOf<D>::command(ClientId client, const std::string& text, const Send& send,
+                                bool runs_fresh) {
   Json tag;
   const auto answer = [&](const Json& json) { send({text_of_json(json), false, false}); };
   try {
@@ -329,6 +351,7 @@ Model::Work ModelOf<D>::command(ClientId client, const std::string& text, const 
     } else if (name == "snapshot") {
       send({snapshot(), true, false});
     } else if (name == "fresh") {
+      if (runs_fresh) throw refusal("a fresh run is under way");
       return fresh(tag);
     } else if (name == "calls") {
       watch_calls(command, tag, send);
@@ -391,9 +414,16 @@ void ModelOf<D>::change(const Lines& lines, Why why, const Json& tag, const Send
 }
 
 template <int D>
+typename ModelOf<D>::Made ModelOf<D>::take_back(Edits edits) {
+  const Set whole(takes_back_, true);
+  return update(std::move(edits));
+}
+
+template <int D>
 void ModelOf<D>::take_back(const Lines& lines, const std::optional<mesher::Options<D>>& limits) {
-  if (!lines.empty()) update(edits_of(lines));
+  if (!lines.empty()) take_back(edits_of(lines));
   if (!limits) return;
+  const Set whole(takes_back_, true);
   announce_limits(*limits, mesher_);
   Watched(mesher_, progress_).update();
 }
@@ -485,7 +515,7 @@ void ModelOf<D>::settle(const Send& send) {
   try {
     record(edits, Why::edit, back);
   } catch (const Error& error) {
-    send_change(update(undoing), features_of(undoing), Json(), send);
+    send_change(take_back(undoing), features_of(undoing), Json(), send);
     send({text_of_json(json_of_error(error, Json())), false, true});
     return;
   }
@@ -539,10 +569,10 @@ Model::Work ModelOf<D>::fresh(const Json& tag) {
   auto graph = std::make_shared<const Graph<D>>(mesher_.input());
   auto mesh = std::make_shared<const mesher::MeshData<D>>(mesher_.mesh());
   const std::uint64_t revision = revision_, calls = mesher_.stats().calls;
-  return [options, graph, mesh, revision, calls, tag]() -> std::string {
+  return [options, graph, mesh, revision, calls, tag](std::stop_token stop) -> std::string {
     try {
       const double start = mesher::now();
-      const auto made = mesher::mesh(*graph, options);
+      const auto made = mesher::mesh(*graph, options, {.progress = {}, .stop = std::move(stop)});
       const double seconds = mesher::now() - start;
       const mesher::Mesh<D>&a = made.mesh, &b = *mesh;
       return Json{{"kind", "fresh"},

@@ -34,10 +34,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <stop_token>
 #include <string>
 
 #include "arguments.hpp"
 #include "edit_journal.hpp"
+#include "mesher/meshing.hpp"
 
 namespace tool::view {
 
@@ -58,18 +60,25 @@ struct SavedFile {
 class Model {
  public:
   using Send = std::function<void(Outgoing)>;
-  /// Work that takes long and may run on another thread; gives what to send when it is done.
-  using Work = std::function<std::string()>;
+  /// Work that takes long and may run on another thread; gives what to send when it is done, or was
+  /// stopped.
+  using Work = std::function<std::string(std::stop_token)>;
+  /// Called some thousand times a second while an update runs. It must not use the model.
+  using Meanwhile = std::function<bool(const mesher::Progress&)>;
 
   Model() = default;
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
   virtual ~Model() = default;
 
+  /// From now on, what this calls false stops an update: that is an error (cancelled), and nothing
+  /// is changed. What takes an update back goes on.
+  virtual void set_meanwhile(Meanwhile meanwhile) = 0;
   /// All of the mesh, as a Message.
   [[nodiscard]] virtual std::string snapshot() = 0;
   /// Does what a page says; mistakes are answered. Gives work that remains.
-  virtual Work command(ClientId client, const std::string& text, const Send& send) = 0;
+  virtual Work command(ClientId client, const std::string& text, const Send& send,
+                       bool runs_fresh) = 0;
   /// A page is gone: what it drags is dropped.
   virtual void left(ClientId client, const Send& send) = 0;
   /// Makes the updates of a script, up to the first that is refused. Gives JSON.

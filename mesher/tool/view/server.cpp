@@ -37,8 +37,10 @@ constexpr std::uint64_t kLongestScript = std::uint64_t{1} << 30;
 constexpr std::size_t kMostWaiting = std::size_t{1} << 28;  // bytes for one page
 constexpr std::uint32_t kLongestHead = 16384;
 constexpr std::chrono::seconds kPatience{30};
+constexpr std::size_t kMostHeld = std::size_t{1} << 20;  // bytes of one page that wait to be taken
 
 constexpr const char* kEditsPath = "edits";  // where scripts are posted
+constexpr const char* kStopPath = "stop";
 
 constexpr const char* kPagePolicy =
     "default-src 'self'; img-src 'self' data:; connect-src 'self' ws://127.0.0.1:* "
@@ -79,6 +81,10 @@ struct Server::Impl {
   [[nodiscard]] bool is_own(const std::string& host) const {
     return host == "127.0.0.1" + end || host == "localhost" + end;
   }
+  // For calls of callbacks, which are made outside of all handlers: meanwhile() could not count
+  // what is outstanding inside of one.
+  void deliver(std::function<void()> call) { calls.push_back(std::move(call)); }
+  void make_calls();
   // The path behind the token; nothing if the request is to be refused.
   [[nodiscard]] std::optional<std::string> allowed_path(const Request& request) const;
 
@@ -87,6 +93,7 @@ struct Server::Impl {
   std::map<ClientId, std::shared_ptr<SocketSession>> clients;
   ClientId last_client = 0;
   std::size_t sessions = 0;
+  std::deque<std::function<void()>> calls;  // to be made
   std::function<bool()> goes_on;
   asio::io_context io{1};  // handlers that wait hold sessions, which go with it
   tcp::acceptor acceptor;
@@ -123,6 +130,8 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
     });
   }
 
+  [[nodiscard]] bool has_joined() const { return has_joined_; }
+
   void send(Server::Bytes bytes, bool binary) {
     if (waiting_bytes_ + bytes->size() > kMostWaiting && waiting_.size() > 1) {
       waiting_.resize(1);  // the one that is being written
@@ -141,22 +150,42 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
   void join() {
     id_ = ++impl().last_client;
     impl().clients.emplace(id_, shared_from_this());
-    impl().callbacks.joined(id_);
+    impl().deliver([self = shared_from_this()] {
+      self->has_joined_ = true;
+      self->impl().callbacks.joined(self->id_);
+    });
     read();
   }
 
   void leave() {
-    if (impl().clients.erase(id_) > 0) impl().callbacks.left(id_);
+    if (impl().clients.erase(id_) == 0) return;
+    impl().deliver([self = shared_from_this()] { self->impl().callbacks.left(self->id_); });
   }
 
   void read() {
+    reads_ = true;
     stream_.async_read(buffer_, [self = shared_from_this()](error_code error, std::size_t) {
+      self->reads_ = false;
       if (error) return self->leave();
       std::string text = beast::buffers_to_string(self->buffer_.data());
       self->buffer_.consume(self->buffer_.size());
-      self->impl().callbacks.message(self->id_, std::move(text));
-      self->read();
+      self->take(std::move(text));
+      self->read_if_room();
     });
+  }
+
+  void take(std::string text) {
+    const std::size_t size = text.size() + 256;
+    held_ += size;
+    impl().deliver([self = shared_from_this(), text = std::move(text), size] {
+      self->held_ -= size;
+      self->impl().callbacks.message(self->id_, text);
+      self->read_if_room();
+    });
+  }
+
+  void read_if_room() {
+    if (!reads_ && held_ <= kMostHeld) read();
   }
 
   void write() {
@@ -173,7 +202,7 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
     waiting_.pop_front();
     if (!waiting_.empty()) return write();
     if (!std::exchange(needs_all_, false)) return;
-    impl().callbacks.joined(id_);
+    impl().deliver([self = shared_from_this()] { self->impl().callbacks.joined(self->id_); });
   }
 
   SessionCount count_;
@@ -181,7 +210,8 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
   beast::flat_buffer buffer_;
   std::deque<std::pair<Server::Bytes, bool>> waiting_;
   std::size_t waiting_bytes_ = 0;
-  bool needs_all_ = false;
+  std::size_t held_ = 0;  // received, and not yet taken
+  bool reads_ = false, has_joined_ = false, needs_all_ = false;
   Server::ClientId id_ = 0;
 };
 
@@ -219,11 +249,16 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   }
 
   void answer() {
-    const Request request = parser_->release();
+    const auto asked = std::make_shared<const Request>(parser_->release());
+    const Request& request = *asked;
     const auto path = count_.impl->allowed_path(request);
     if (!path) return reply(request, {403, "text/plain", "refused\n", ""});
+    const auto& callbacks = count_.impl->callbacks;
     if (request.method() == http::verb::post && *path == kEditsPath) {
-      return reply(request, count_.impl->callbacks.edits(request.body()));
+      return reply_later(asked, [&callbacks, asked] { return callbacks.edits(asked->body()); });
+    }
+    if (request.method() == http::verb::post && *path == kStopPath) {
+      return reply(request, callbacks.stop());
     }
     if (websocket::is_upgrade(request)) {
       if (*path != "socket") return reply(request, {404, "text/plain", "not found\n", ""});
@@ -234,7 +269,14 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     if (request.method() != http::verb::get && request.method() != http::verb::head) {
       return reply(request, {405, "text/plain", "only GET is understood\n", ""});
     }
-    reply(request, count_.impl->callbacks.get(*path));
+    if (auto page = callbacks.page(*path)) return reply(request, std::move(*page));
+    reply_later(asked, [&callbacks, path = *path] { return callbacks.get(path); });
+  }
+
+  // When nothing else is under way.
+  void reply_later(std::shared_ptr<const Request> request, std::function<HttpReply()> make) {
+    count_.impl->deliver([self = shared_from_this(), request = std::move(request),
+                          make = std::move(make)] { self->reply(*request, make()); });
   }
 
   void reply(const Request& request, HttpReply from) {
@@ -299,6 +341,14 @@ std::optional<std::string> Server::Impl::allowed_path(const Request& request) co
   return target.substr(slash + 1);
 }
 
+void Server::Impl::make_calls() {
+  while (!calls.empty()) {
+    const auto next = std::move(calls.front());
+    calls.pop_front();
+    next();
+  }
+}
+
 void Server::Impl::listen(const PageAddress& wanted, bool may_move) {
   const std::uint16_t port = wanted.port;
   token = wanted.token.empty() ? random_token() : wanted.token;
@@ -346,7 +396,10 @@ Server::Server(const PageAddress& wanted, bool may_move, Callbacks callbacks)
   impl_->listen(wanted, may_move);
 }
 
-Server::~Server() { impl_->clients.clear(); }
+Server::~Server() {
+  impl_->clients.clear();
+  impl_->calls.clear();
+}
 
 PageAddress Server::address() const {
   return {impl_->acceptor.local_endpoint().port(), impl_->token};
@@ -358,15 +411,26 @@ void Server::send(ClientId client, Bytes bytes, bool binary) {
 }
 
 void Server::broadcast(const Bytes& bytes, bool binary) {
-  for (const auto& client : impl_->clients) client.second->send(bytes, binary);
+  for (const auto& client : impl_->clients) {
+    if (client.second->has_joined()) client.second->send(bytes, binary);
+  }
 }
+
+void Server::announce(const Bytes& text) {
+  for (const auto& client : impl_->clients) client.second->send(text, false);
+}
+
+void Server::meanwhile() { impl_->io.poll(); }
 
 void Server::post(std::function<void()> work) { asio::post(impl_->io, std::move(work)); }
 
 void Server::run(std::function<bool()> goes_on) {
   impl_->goes_on = std::move(goes_on);
   impl_->ask_whether_to_go_on();
-  impl_->io.run();
+  while (!impl_->io.stopped()) {
+    impl_->io.run_one();
+    impl_->make_calls();
+  }
 }
 
 }  // namespace tool::view

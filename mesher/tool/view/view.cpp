@@ -5,8 +5,10 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -43,19 +45,20 @@ std::uint16_t port_of(const std::string& text) {
                       "--port '" + text + "': not a whole number up to 65535");
 }
 
-view::HttpReply page_reply(Model& model, const std::string& path, const Model::Send& send) {
+std::optional<view::HttpReply> page_reply(const std::string& path) {
+  const auto* page = view::find_page(path);
+  if (page == nullptr) return std::nullopt;
+  return view::HttpReply{200, std::string(page->type), std::string(page->content), ""};
+}
+
+view::HttpReply file_reply(Model& model, const std::string& path, const Model::Send& send) {
   const std::string saved = "save/";
   if (path == "calls.svg" || path.starts_with("calls.svg?")) {
     std::string picture = model.calls();
     if (picture.empty()) return {404, "text/plain", "no calls are drawn\n", ""};
     return {200, "image/svg+xml", std::move(picture), ""};
   }
-  if (!path.starts_with(saved)) {
-    if (const auto* page = view::find_page(path)) {
-      return {200, std::string(page->type), std::string(page->content), ""};
-    }
-    return {404, "text/plain", "not found\n", ""};
-  }
+  if (!path.starts_with(saved)) return {404, "text/plain", "not found\n", ""};
   try {
     auto file = model.saved(path.substr(saved.size()), send);
     return {200, file.type, std::move(file.content), file.name};
@@ -78,37 +81,51 @@ view::HttpReply edits_reply(Model& model, const std::string& script, const Model
   }
 }
 
-// The model behind the server: answers go to one page or to all.
+constexpr double kLook = 0.02;     // seconds between looks at the network during an update
+constexpr double kPatience = 0.5;  // until pages are told of an update that is under way
+constexpr double kInterval = 0.25;
+
+// The model behind the server: answers go to one page or to all. While an update runs, pages are
+// served, and may stop it.
 class View {
  public:
   View(std::unique_ptr<Model> model, const view::PageAddress& wanted, bool may_move)
       : model_(std::move(model)),
-        server_(
-            wanted, may_move,
-            {.get =
-                 [this](const std::string& path) { return page_reply(*model_, path, sender(0)); },
-             .edits =
-                 [this](const std::string& script) {
-                   return edits_reply(*model_, script, sender(0));
-                 },
-             .joined =
-                 [this](Server::ClientId client) {
-                   server_.send(client, bytes(model_->snapshot()), true);
-                 },
-             .left = [this](Server::ClientId client) { model_->left(client, sender(client)); },
-             .message = [this](Server::ClientId client,
-                               const std::string& text) { take(client, text); }}) {}
+        server_(wanted, may_move,
+                {.page = page_reply,
+                 .get =
+                     [this](const std::string& path) {
+                       return attended([&] { return file_reply(*model_, path, sender(0)); });
+                     },
+                 .edits =
+                     [this](const std::string& script) {
+                       return attended([&] { return edits_reply(*model_, script, sender(0)); });
+                     },
+                 .stop = [this] { return stop(); },
+                 .joined =
+                     [this](Server::ClientId client) {
+                       server_.send(client, bytes(model_->snapshot()), true);
+                     },
+                 .left =
+                     [this](Server::ClientId client) {
+                       attended([&] { return model_->left(client, sender(client)), true; });
+                     },
+                 .message = [this](Server::ClientId client,
+                                   const std::string& text) { take(client, text); }}) {
+    model_->set_meanwhile([this](const mesher::Progress& progress) { return goes_on(progress); });
+  }
   ~View() {
+    fresh_stop_.request_stop();
     for (auto& thread : threads_) thread.join();
   }
   View(const View&) = delete;
   View& operator=(const View&) = delete;
 
   [[nodiscard]] view::PageAddress address() const { return server_.address(); }
-  void run(bool with_parent) {
-    const auto parent = platform::parent_number();
+  // `parent`: ends when another process is; nothing: whatever the parent is.
+  void run(const std::optional<std::uint64_t>& parent) {
     server_.run(
-        [=] { return !interrupted() && !(with_parent && platform::parent_number() != parent); });
+        [=] { return !interrupted() && (!parent || platform::parent_number() == *parent); });
     model_->finish(sender(0));
   }
   [[nodiscard]] const Model& model() const { return *model_; }
@@ -129,20 +146,50 @@ class View {
     };
   }
 
+  // What the model does, during which goes_on() is asked.
+  template <class Do>
+  std::invoke_result_t<Do> attended(Do make) {
+    stops_ = false;
+    began_ = mesher::now();
+    next_look_ = began_ + kLook;
+    next_word_ = began_ + kPatience;
+    attends_ = true;
+    auto made = make();
+    attends_ = stops_ = false;
+    if (next_word_ > began_ + kPatience) server_.announce(bytes(R"({"kind":"idle"})"));
+    return made;
+  }
+
+  bool goes_on(const mesher::Progress& progress) {
+    const double now = mesher::now();
+    if (!attends_ || now < next_look_) return !stops_;
+    next_look_ = now + kLook;
+    server_.meanwhile();
+    if (now < next_word_) return !stops_;
+    next_word_ = now + kInterval;
+    server_.announce(bytes(view::Json{
+        {"kind", "busy"}, {"seconds", now - began_}, {"calls", progress.done}, {"stops", stops_}}
+                               .dump()));
+    return !stops_;
+  }
+
+  view::HttpReply stop() {
+    stops_ = attends_;
+    if (running_ > 0) fresh_stop_.request_stop();
+    const bool any = attends_ || running_ > 0;
+    return {200, "text/plain", any ? "stopping\n" : "nothing is under way\n", ""};
+  }
+
   void take(Server::ClientId client, const std::string& text) {
-    Model::Work work = model_->command(client, text, sender(client));
+    Model::Work work =
+        attended([&] { return model_->command(client, text, sender(client), running_ > 0); });
     if (!work) return;
-    if (running_ > 0)
-      return server_.send(client,
-                          bytes(R"({"kind":"error","code":"bad_edit",)"
-                                R"("text":"a fresh run is under way",)"
-                                R"("places":[],"features":[]})"),
-                          false);
     ++running_;
     for (auto& thread : threads_) thread.join();  // they are done
     threads_.clear();
-    threads_.emplace_back([this, client, work = std::move(work)] {
-      std::string answer = work();
+    fresh_stop_ = {};
+    threads_.emplace_back([this, client, work = std::move(work), stop = fresh_stop_.get_token()] {
+      std::string answer = work(stop);
       server_.post([this, client, answer = std::move(answer)] {
         --running_;
         server_.send(client, bytes(answer), false);
@@ -153,6 +200,9 @@ class View {
   std::unique_ptr<Model> model_;
   std::vector<std::thread> threads_;
   int running_ = 0;
+  std::stop_source fresh_stop_;
+  bool attends_ = false, stops_ = false;
+  double began_ = 0, next_look_ = 0, next_word_ = 0;  // by mesher::now()
   Server server_;
 };
 
@@ -187,6 +237,8 @@ std::unique_ptr<View> opened_view(const ViewArguments& args, const JournalArgume
 }
 
 void run_view(const ViewArguments& args) {
+  const auto parent =  // which may end before the mesh is made
+      args.with_parent ? std::optional(platform::parent_number()) : std::nullopt;
   JournalArguments journal = args.journal;
   if (journal.path.empty()) {
     if (args.source != args.input) {
@@ -204,7 +256,7 @@ void run_view(const ViewArguments& args) {
                  args.source.c_str(), view->model().summary().c_str());
   }
   const StopPolitely stop;
-  view->run(args.with_parent);
+  view->run(parent);
 }
 
 }  // namespace

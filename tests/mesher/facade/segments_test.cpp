@@ -375,6 +375,11 @@ TEST_CASE("lines are announced by ids that are free, and taken back by ids that 
   m.insert_segment(id(1), id(1), id(2));
   CHECK(code([&] { m.insert_segment(id(1), id(2), id(3)); }) == ErrorCode::repeated_id);
   CHECK(code([&] { m.insert_segment(id(2), id(3), id(3)); }) == ErrorCode::zero_length);
+  try {
+    m.insert_segment(id(2), id(3), id(3));
+  } catch (const Error& e) {
+    CHECK(e.places() == std::vector<mesher::Position>{{5, 5, 0}});
+  }
   CHECK(code([&] { m.insert_polyline(id(2), {id(3)}); }) == ErrorCode::bad_option);
   CHECK(code([&] { m.remove_line(id(2)); }) == ErrorCode::unknown_id);
   m.discard_edits();

@@ -193,6 +193,48 @@ TEST_CASE("What the ids alone say of a polygon is refused when it is announced")
   CHECK_THROWS_AS(plane.insert_polygon({id(1), {ids({1, 2, 3})}}), Error);
 }
 
+TEST_CASE("What the ids alone say is said with the place, where it is known") {
+  using Places = std::vector<mesher::Position>;
+  Scene scene;
+  scene.m.insert(id(20), {0.1, 0.2, 0.3});  // not there yet
+  const auto places = [&](auto&& edit) {
+    try {
+      edit(scene.m);
+    } catch (const Error& e) {
+      return e.places();
+    }
+    return Places{{-1, -1, -1}};
+  };
+  const auto of_polygon = [&](const Polygon& polygon) {
+    return places([&](auto& m) { m.insert_polygon(polygon); });
+  };
+  for (const bool updated : {false, true}) {
+    INFO(updated);
+    CHECK(of_polygon({id(2), {ids({5, 6, 7, 6})}}) == Places{{0.5, 0.5, 0.25}});
+    CHECK(of_polygon({id(2), {ids({1, 2, 3}), ids({5, 20, 6, 20})}}) == Places{{0.1, 0.2, 0.3}});
+    CHECK(of_polygon({id(2), {ids({99, 5})}}) == Places{{0.5, 0.5, 0.75}});
+    CHECK(of_polygon({id(2), {ids({5, 6, 7})}, {{id(5), id(5)}}}) == Places{{0.5, 0.5, 0.75}});
+    CHECK(of_polygon({id(2), {ids({5, 99, 7, 99})}}).empty());
+    CHECK(of_polygon({id(2), {}}).empty());
+    CHECK(places([](auto& m) { m.insert_segment(id(9), id(20), id(20)); }) ==
+          Places{{0.1, 0.2, 0.3}});
+    scene.m.update();
+  }
+  CHECK(places([](auto& m) {
+          m.remove(id(3));
+          m.update();
+        }) == Places{{0.75, 0.75, 0.5}});
+  const Places points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  CHECK(places([&](auto&) {
+          static_cast<void>(mesher::mesh_statically(points, {}, {{id(1), {ids({1, 2, 3, 2})}}},
+                                                    kOptions, ids({1, 2, 3})));
+        }) == Places{{1, 0, 0}});
+  CHECK(places([&](auto&) {
+          static_cast<void>(mesher::mesh_statically(points, {{id(1), id(3), id(3)}}, {}, kOptions,
+                                                    ids({1, 2, 3})));
+        }) == Places{{0, 1, 0}});
+}
+
 TEST_CASE("A polygon takes the edges that nobody else has") {
   Scene scene;
   scene.m.insert_polygon({id(2), {ids({1, 2, 5})}});

@@ -3,7 +3,9 @@
 #include <catch2/catch.hpp>
 
 #include "feature_ids.hpp"
+#include "mesher/meshing.hpp"
 #include "mesher/repair.hpp"
+#include "random_soup.hpp"
 #include "repaired_complex.hpp"
 
 namespace {
@@ -179,7 +181,7 @@ TEST_CASE("what cannot be repaired in space is an error with its place") {
   file.segments = {{5, 1}};
   const auto said = [&](const mesher::GraphFile<3>& f, std::optional<mesher::Box<3>> domain = {}) {
     try {
-      static_cast<void>(repair(f, domain));
+      static_cast<void>(repair(f, {.domain = domain}));
     } catch (const Error& error) {
       return std::string(error.what());
     }
@@ -225,4 +227,69 @@ TEST_CASE("a complex that was made by hand, without positions, is repaired in it
   file.graph.attributes_per_point = 2;
   REQUIRE_THROWS_WITH(repair(file),
                       "error[wrong_count]: 0 attributes are there, of 11 points with 2 each");
+}
+
+namespace {
+
+// A block of triangles, whose top or bottom is a grid with heights that are rounding.
+void add_block(PlcBuilder& b, double lo, double hi, int n, bool top, std::uint64_t seed) {
+  mesher::SplitMix64 random(seed);
+  const auto at = [&](int i) { return i == n ? 4 : 4.0 * i / n; };
+  std::vector<std::vector<Point<3>>> grid;
+  for (int i = 0; i <= n; ++i) {
+    auto& row = grid.emplace_back();
+    for (int j = 0; j <= n; ++j) {
+      const double noise = 4e-7 * (random.unit() - 0.5);
+      row.push_back({at(i), at(j), (top ? hi : lo) + noise});
+    }
+  }
+  const auto triangle = [&](const Point<3>& p, const Point<3>& q, const Point<3>& r) {
+    b.polygon({{p, q, r}});
+  };
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      triangle(grid[i][j], grid[i + 1][j], grid[i + 1][j + 1]);
+      triangle(grid[i][j], grid[i + 1][j + 1], grid[i][j + 1]);
+    }
+  }
+  const Point<3> apex{2, 2, top ? lo : hi};
+  for (int i = 0; i < n; ++i) {
+    triangle(grid[i][0], grid[i + 1][0], apex);
+    triangle(grid[i][n], grid[i + 1][n], apex);
+    triangle(grid[0][i], grid[0][i + 1], apex);
+    triangle(grid[n][i], grid[n][i + 1], apex);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("surfaces that touch up to rounding are made to touch") {
+  PlcBuilder b;
+  add_block(b, 0, 2, 3, true, 1);
+  add_block(b, 2, 4, 4, false, 2);
+  const Graph<3> plc = b.finish();
+  const Repaired<3> usual = repair(plc), least = repair(plc, {.tolerance = 0});
+  CHECK(usual.tolerance > 1e6 * least.tolerance);
+  CHECK(usual.deviation <= 16 * usual.tolerance);
+  INFO(usual.file.graph.points.size() << " and " << least.file.graph.points.size());
+  CHECK(usual.file.graph.points.size() < least.file.graph.points.size());
+  const auto domain = support::domain_of(plc);
+  const auto made =
+      mesher::mesh(usual.file.graph, mesher::Options<3>{.domain = domain, .max_vertices = 20000});
+  CHECK(made.mesh.vertices.size() < 20000);
+}
+
+TEST_CASE("a tolerance that cannot be is refused") {
+  PlcBuilder b;
+  b.polygon({square(0, 0, 0, 4)});
+  b.polygon({{{1, 2, -1}, {6, 2, -1}, {6, 2, 1}, {1, 2, 1}}});
+  const Graph<3> plc = b.finish();
+  CHECK(repair(plc, {.tolerance = 0.125}).tolerance == 0.125);
+  for (const double t : {-1.0, 100.0, std::numeric_limits<double>::quiet_NaN(),
+                         std::numeric_limits<double>::infinity()}) {
+    REQUIRE_THROWS_WITH(
+        repair(plc, {.tolerance = t}),
+        Catch::Matchers::StartsWith("error[bad_option]: the tolerance of a repair"));
+  }
+  REQUIRE(repair(plc, {.tolerance = 0}).file.graph == repair(plc).file.graph);
 }

@@ -39,10 +39,11 @@ class Server:
     def __exit__(self, *_):
         self.stop()
 
-    def get(self, path, method="GET", headers=None, whole=False):
+    def get(self, path, method="GET", headers=None, whole=False, body=None):
         """Status, body, headers; `path` behind the token, or, if `whole`, all of it."""
         connection = http.client.HTTPConnection(self.host, self.port, timeout=60)
-        connection.request(method, path if whole else self.path + path, headers=headers or {})
+        connection.request(method, path if whole else self.path + path, body=body,
+                           headers=headers or {})
         answer = connection.getresponse()
         body = answer.read()
         connection.close()
@@ -94,6 +95,7 @@ class Client:
             self.socket.close()
             raise Refused(status)
         self.tag = 0
+        self.skips = {"busy", "idle"}  # what may come at any time
         self.snapshot = self.receive() if joins else None
 
     def close(self):
@@ -152,7 +154,8 @@ class Client:
             if first & 0x80:
                 break
         if opcode == 1:
-            return json.loads(payload)
+            head = json.loads(payload)
+            return self.receive() if head["kind"] in self.skips else head
         length = struct.unpack_from("<I", payload)[0]
         head = json.loads(payload[4:4 + length])
         for array in head.pop("arrays", []):

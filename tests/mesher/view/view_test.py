@@ -17,6 +17,7 @@ import socket
 import struct
 import subprocess
 import sys
+import threading
 import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -393,6 +394,8 @@ def survives_mutants(seed, count):
                         elif answer["kind"] == "snapshot":
                             assert Mirror(answer).content() == mirror.content(), message
                         refused += answer["kind"] == "error"
+                except TimeoutError as error:
+                    raise AssertionError(f"no answer: {message}") from error
                 except (EOFError, OSError):  # what is not UTF-8
                     assert server.process.poll() is None, (server.process.returncode, message)
                     closed += 1
@@ -401,6 +404,8 @@ def survives_mutants(seed, count):
             assert made > count / 20 and refused > count, (made, refused, closed)
             same_as_snapshot(client, mirror)
             fresh = client.ask(do="fresh")
+            while fresh.get("text") == "a fresh run is under way":  # a mutant's
+                fresh = client.ask(do="fresh")
             while fresh["kind"] != "fresh" and fresh["kind"] != "error":
                 fresh = client.receive()
             assert fresh.get("same") is True, fresh
@@ -686,6 +691,25 @@ def drags_lines_and_polygons():
             {(x, y, 1.5) for x in (0, 1) for y in (0, 1)}
 
 
+def says_where_errors_are():
+    """Also of what is wrong by its ids alone."""
+    for source, cases in (
+            ("square.poly", (({"do": "line", "through": [3, 3]}, "zero_length", [1, 1, 0]),
+                             ({"do": "script", "text": "-point 3"}, "point_in_use", [1, 1, 0]))),
+            ("cube.poly", (({"do": "polygon", "through": [1, [.5, .5, .5], [.25, .5, .75], 1]},
+                            "bad_polygon", "1"),
+                           ({"do": "script", "text": "begin\n+point 40 .5 .25 .125\n"
+                             "+polygon 40 1 40 2 40\ncommit\n"}, "bad_polygon", [.5, .25, .125]),
+                           ({"do": "script", "text": "-point 1"}, "point_in_use", "1")))):
+        with Server(TOOL, source, "--journal", f"where_{source}.journal") as server:
+            client = Client(server)
+            points = Mirror(client.snapshot).points
+            for command, code, place in cases:
+                error = client.ask(**command)
+                assert error.get("code") == code, error
+                assert error["places"] == [list(points[1]) if place == "1" else place], error
+
+
 def draws_calls():
     """On request a picture of the calls that an update ran; of a drag one."""
     with Server(TOOL, "square.poly", "--journal", "calls.journal") as server:
@@ -711,6 +735,109 @@ def draws_calls():
         assert client.ask(do="calls", on=False)["state"]["calls"] is None
         assert server.get("calls.svg")[0] == 404
         assert client.ask(do="calls", on=3)["kind"] == "error"
+
+
+def stops_on_request():
+    """An update without end: pages are served while it runs, told of it, and may stop it."""
+    endless = {"do": "limit", "size": 1e-5}
+
+    def told(client, kind):
+        client.skips = set()
+        message = client.receive()
+        while message["kind"] != kind:
+            message = client.receive()
+        client.skips = {"busy", "idle"}
+        return message
+
+    def stop():
+        status, said, _ = server.get("stop", method="POST")
+        assert status == 200
+        return said
+
+    with Server(TOOL, "square.poly", "--journal", "endless.journal") as server:
+        client = Client(server)
+        client.send(**endless)
+        for _ in range(12):  # it goes on, also if nothing else happens
+            told(client, "busy")
+        assert stop() == b"stopping\n"
+        assert client.receive()["code"] == "cancelled"
+        same_as_snapshot(client, Mirror(client.snapshot))
+        client.send(**endless)
+        told(client, "busy")
+        assert server.stop()[0] == 0
+    with Server(TOOL, "square.poly", "--journal", "stop.journal") as server:
+        client, other = Client(server), Client(server)
+        mirror = Mirror(client.snapshot)
+        assert stop() == b"nothing is under way\n"
+        tag = client.send(**endless)
+        assert told(client, "busy")["stops"] is False
+        calls = told(other, "busy")["calls"]
+        assert told(other, "busy")["calls"] > calls > 0
+        for headers in ({"Host": "example.org"}, {"Origin": "http://example.org"}):
+            assert server.get("stop", method="POST", headers=headers)[0] == 403
+        # A page that is opened, and what others ask for meanwhile.
+        for page in ("", "app.js", "style.css"):
+            assert server.get(page)[0] == 200, page
+        late = Client(server, joins=False)
+        told(late, "busy")
+        asked = other.send(do="point", at=[.3, .4])
+        replies = []
+        saving = threading.Thread(target=lambda: replies.append(server.get("save/input.txt")))
+        saving.start()
+        lost = Client(server, joins=False)
+        lost.close()
+        time.sleep(.5)
+        assert not replies
+        assert stop() == b"stopping\n"
+        error = client.receive()
+        assert (error.get("code"), error.get("tag")) == ("cancelled", tag), error
+        told(other, "idle")
+        change = other.receive()
+        assert change["kind"] == "change" and change["tag"] == asked, change
+        assert change["state"]["updates"] == 1
+        mirror.apply(client.receive())
+        assert Mirror(late.receive()).content() in (mirror.content(),
+                                                    Mirror(client.snapshot).content())
+        saving.join()
+        assert replies[0][0] == 200 and b"limit none" in replies[0][1], replies
+        same_as_snapshot(client, mirror)
+        # Of a script the batches before stay; one that is posted says so, too.
+        script = "+point 20 .5 .5\nlimit size .00001\n+point 21 .6 .5\n"
+        tag = client.send(do="script", text=script)
+        mirror.apply(client.receive())
+        told(client, "busy")
+        stop()
+        error = client.receive()
+        assert (error.get("code"), error.get("tag")) == ("cancelled", tag), error
+        posting = threading.Thread(target=lambda: replies.append(
+            server.get("edits", method="POST", body="limit size .00001\n")))
+        posting.start()
+        told(client, "busy")
+        stop()
+        posting.join()
+        assert replies[1][0] == 409 and json.loads(replies[1][1])["code"] == "cancelled", replies
+        state = same_as_snapshot(client, mirror)["state"]
+        assert (state["updates"], state["undo"], len(mirror.points)) == (2, 2, 6)
+        # A drag goes on from where it was.
+        mirror.apply(client.ask(do="drag", point=20, at=[.5, .55], drop=True))
+        # A fresh run.
+        mirror.apply(client.ask(do="limit", size=.01))
+        tag, again = client.send(do="fresh"), client.send(do="fresh")
+        error = client.receive()
+        assert (error["text"], error["tag"]) == ("a fresh run is under way", again), error
+        while stop() != b"stopping\n":
+            pass
+        error = client.receive()
+        while error["kind"] != "error":
+            error = client.receive()
+        assert (error["code"], error["tag"]) == ("cancelled", tag), error
+        assert client.ask(do="fresh")["same"] is True
+        require_replayed(server, "square.poly", formats=("vtu",))
+        # It ends at once while one runs.
+        client.send(**endless)
+        told(client, "busy")
+    edit("square.poly", "--journal", "stop.journal", "-o", "stopped.vtu")
+    assert contents("stopped.vtu") == contents("replayed.vtu")
 
 
 def edits_limits():
@@ -950,18 +1077,31 @@ def takes_posted_scripts():
 
 
 def ends_with_its_parent():
-    starter = ("import subprocess, sys\n"
-               "p = subprocess.Popen(sys.argv[1:], stdout=subprocess.PIPE, text=True)\n"
-               "print(p.stdout.readline().strip(), p.pid, flush=True)\n"
-               "sys.stdin.read()\n")
-    parent = subprocess.Popen([sys.executable, "-c", starter, TOOL, "view", "square.poly", "--quiet",
-                               "--journal", "parent.journal", "--with-parent"],
-                              stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-    pid = int(parent.stdout.readline().split()[1])
-    os.kill(pid, 0)
-    parent.kill()
-    parent.communicate()
-    for _ in range(200):
+    """Also if that ends before the page is there."""
+    subprocess.run([TOOL, "gen", "uniform", "--n", "20000", "-o", "slow.node"], check=True)
+    for source, waits, seconds in (("square.poly", True, 10), ("slow.node", False, 60)):
+        starter = ("import subprocess, sys\n"
+                   "p = subprocess.Popen(sys.argv[2:], stdout=subprocess.PIPE if sys.argv[1] == 'True'"
+                   " else subprocess.DEVNULL, text=True)\n"
+                   "if p.stdout: p.stdout.readline()\n"
+                   "print(p.pid, flush=True)\n"
+                   "sys.stdin.read()\n")
+        parent = subprocess.Popen([sys.executable, "-c", starter, str(waits), TOOL, "view", source,
+                                   "--quiet", "--journal", f"{source}.parent", "--with-parent"],
+                                  stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        pid = int(parent.stdout.readline())
+        os.kill(pid, 0)
+        for _ in range(2000):  # the journal is there before the mesh
+            if os.path.exists(f"{source}.parent"):
+                break
+            time.sleep(.005)
+        parent.kill()
+        parent.communicate()
+        require_end(pid, seconds)
+
+
+def require_end(pid, seconds):
+    for _ in range(20 * seconds):
         try:
             os.kill(pid, 0)
             with open(f"/proc/{pid}/stat") as stat:
@@ -1009,9 +1149,9 @@ def main():
           b"4 4 1 4\n0\n")
     subprocess.run([TOOL, "gen", "cube", "-o", "cube.poly"], check=True)
     for test in (refuses_strangers, shows_edits_to_all, tells_of_full_disks, follows_in_space,
-                 drags_lines_and_polygons, draws_calls, edits_limits, saves_pictures_of_the_last_update,
-                 comes_back_where_it_was, begins_with_a_script, takes_posted_scripts,
-                 ends_with_its_parent, refuses_options):
+                 drags_lines_and_polygons, says_where_errors_are, draws_calls, stops_on_request,
+                 edits_limits, saves_pictures_of_the_last_update, comes_back_where_it_was,
+                 begins_with_a_script, takes_posted_scripts, ends_with_its_parent, refuses_options):
         test()
     refuses_nonsense(seed)
     survives_kills(seed)
