@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <map>
 
-#include "facade/angle_finder.hpp"
 #include "facade/asking.hpp"
+#include "facade/tile_angles.hpp"
 #include "facade/tile_changes.hpp"
-#include "facade/tiles_mesh.hpp"
 #include "facade/whole_change.hpp"
 #include "program/meter.hpp"
 #include "program/world_impl.hpp"
@@ -158,7 +157,7 @@ Change<2> TiledPlaneState::first_run(Edits<2> edits, const RunControl& control,
   ran_ = true;
   Change<2> change = whole_change(mesh());
   set_first(stats_, change, *tiles_);
-  add_angles(change, true);
+  change.angles = all_angles(*world_, *tiles_, options_.rho);
   change.calls.executed = tiles_->calls();
   if (accept) accept(change);
   return change;
@@ -222,22 +221,8 @@ Change<2> TiledPlaneState::propagate(const Edits<2>& edits, const RunControl& co
 Change<2> TiledPlaneState::change_of(Tiles::Changes& changes) const {
   Change<2> change = detail::change_of<2>(changes);
   report_edges(changes, change);
-  add_angles(change, false);
+  change.angles = new_angles(*world_, *tiles_, options_.rho, change.simplices_added);
   return change;
-}
-
-void TiledPlaneState::add_angles(Change<2>& change, bool is_all) const {
-  if (segments().live() == 0) return;
-  const TilesMesh mesh(*world_, *tiles_);
-  std::vector<TilesMesh::Triangle> come;
-  if (is_all) {
-    come = mesh.triangles();
-  } else {
-    for (const auto& t : change.simplices_added) {
-      come.push_back({mesh.handle_at(t[0]), mesh.handle_at(t[1]), mesh.handle_at(t[2])});
-    }
-  }
-  change.angles = AngleFinder<TilesMesh>(mesh, options_.rho).news(std::move(come));
 }
 
 // Leaves that ended or began, without those of which another piece is in the same place; and those

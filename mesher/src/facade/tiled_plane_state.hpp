@@ -61,7 +61,6 @@ class TiledPlaneState final : public PlaneState {
   void take_back(const News& news) noexcept;
   void require_leaves() const;
   [[nodiscard]] Change<2> change_of(Tiles::Changes& changes) const;
-  void add_angles(Change<2>& change, bool is_all) const;
   void report_edges(const Tiles::Changes& changes, Change<2>& change) const;
 
   Options<2> options_;

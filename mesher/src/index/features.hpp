@@ -144,6 +144,8 @@ class Features<sac::Scope, D> : public sac::Structure {
 
   /// How much visit_points_in has looked at so far.
   [[nodiscard]] std::uint64_t looked_at() const noexcept { return tree_.looked_at(); }
+  /// While it is held several threads may visit at once, and nothing is counted.
+  void hold(bool held) noexcept { tree_.hold(held); }
 
   [[nodiscard]] std::size_t bytes() const noexcept { return tree_.bytes(); }
   void check_invariants() const override;

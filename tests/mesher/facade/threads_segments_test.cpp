@@ -272,6 +272,57 @@ TEST_CASE("lines that get another id, in the place where they were") {
   }
 }
 
+TEST_CASE("many lines that go and come in one update, on several threads") {
+  const Graph<2> graph = mesher::generate_pslg({PslgKind::segments, 300, 21});
+  for (const int threads : {2, 4}) {
+    Pair pair(graph, threads);
+    for (const std::size_t step : {3, 2, 1}) {
+      for (std::size_t i = 0; i < graph.segments.size(); i += step) {
+        const LineId id = graph.segments[i].id;
+        pair.many().remove_line(id), pair.one().remove_line(id);
+      }
+      REQUIRE(pair.update());
+      pair.check();
+      for (std::size_t i = 0; i < graph.segments.size(); i += step) {
+        const auto& s = graph.segments[i];
+        pair.insert_line(s.id, {s.from, s.to});
+      }
+      REQUIRE(pair.update());
+      pair.check();
+    }
+  }
+}
+
+TEST_CASE(
+    "small angles of a line with itself that are equal, at one point, are told in one order") {
+  Graph<2> star;
+  const PointId hub{1};
+  star.points.push_back({hub, {0.5, 0.5}});
+  std::vector<PointId> line;
+  for (int k = 0; k < 12; ++k) {  // three legs beside each half-axis, which is as long as none else
+    const double length = 0.25 / (1 << k / 3), side = length / 8 * (k % 3 - 1);
+    const double x[] = {length, -side, -length, side}, y[] = {side, length, -side, -length};
+    const PointId end{2 + k};
+    star.points.push_back({end, {0.5 + x[k / 3], 0.5 + y[k / 3]}});
+    if (k % 2 == 0) line.push_back(hub);
+    line.push_back(end);
+  }
+  line.push_back(hub);
+  star.polylines.push_back({LineId{1}, line});
+  for (const int threads : {2, 3}) {
+    Pair pair(star, threads);
+    SplitMix64 random(4);
+    for (int step = 2; step < 8; ++step) {
+      pair.many().remove_line(LineId{step - 1}), pair.one().remove_line(LineId{step - 1});
+      pair.insert(PointId{100 + step}, {random.unit(), random.unit()});
+      if (step % 2 == 0) REQUIRE(pair.update());
+      pair.insert_line(LineId{step}, line);
+      REQUIRE(pair.update());
+      pair.check();
+    }
+  }
+}
+
 TEST_CASE("on several threads what is wrong with lines is said as on one") {
   Pair pair(mesher::generate_pslg({PslgKind::segments, 40, 4}), 3);
   const auto both = [&](auto&& edit) { edit(pair.many()), edit(pair.one()); };
