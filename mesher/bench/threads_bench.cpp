@@ -1,8 +1,9 @@
-// Points on several threads beside one: first runs, updates, and what the tiles say to each other.
+// Several threads beside one: first runs, updates, and what the tiles say to each other.
 //
-//   threads_bench [[3d:]FAMILY:N:THREADS]...
+//   threads_bench [[3d:|lines:]FAMILY:N:THREADS]...
 //
-// default: uniform:1000000:2 clusters:300000:2 3d:uniform:100000:2. One JSON line per figure, times
+// Families of points, or of lines in the plane. Default: uniform:1000000:2 clusters:300000:2
+// 3d:uniform:100000:2 lines:segments:100000:2. One JSON line per figure, times
 // in seconds by the clock and of the process:
 //   first_run  with points announced before: of one thread, of several, the ratio; of the latter
 //              the seconds before and after the tiles; calls over those of one, bytes of trace over
@@ -10,7 +11,8 @@
 //   exchanges  rounds and messages of the first run, horizons; vertices of others that tiles see,
 //              over all
 //   updates    microseconds by the clock, of points that move anywhere, one at a time: median and
-//              99th percentile of one and of several threads; a batch of 1000, of both
+//              99th percentile of one and of several threads; a batch of 1000, of both; of lines
+//              that go and come again, a batch of 200
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -134,6 +136,96 @@ void bench_case(Case<D> c) {
   print_exchanges(c);
 }
 
+// --- Lines
+
+struct Lines {
+  std::string family;
+  int threads;
+  mesher::Graph<2> graph;
+  mesher::SplitMix64 random{3};
+
+  [[nodiscard]] std::string name() const {
+    return "\"family\":\"lines:" + family + "\",\"n\":" + std::to_string(size()) +
+           ",\"threads\":" + std::to_string(threads);
+  }
+  [[nodiscard]] std::size_t size() const { return graph.segments.size() + graph.polylines.size(); }
+  static void insert_line(BoxMesher<2>& m, const mesher::Segment& s) {
+    m.insert_segment(s.id, s.from, s.to);
+  }
+  static void insert_line(BoxMesher<2>& m, const mesher::Polyline& l) {
+    m.insert_polyline(l.id, l.points);
+  }
+  // Calls act(line) for one of all.
+  template <class Act>
+  void with(std::size_t i, Act&& act) const {
+    i < graph.segments.size() ? act(graph.segments[i])
+                              : act(graph.polylines[i - graph.segments.size()]);
+  }
+  [[nodiscard]] BoxMesher<2> mesher(int with_threads) const {
+    mesher::Options<2> options{.domain = {{0, 0}, {1, 1}}, .threads = with_threads};
+    BoxMesher<2> m(options);
+    for (const auto& p : graph.points) m.insert(p.id, p.at);
+    for (std::size_t i = 0; i < size(); ++i) with(i, [&](const auto& l) { insert_line(m, l); });
+    return m;
+  }
+};
+
+void bench_lines(Lines c) {
+  BoxMesher<2> one = c.mesher(1), many = c.mesher(c.threads);
+  std::uint64_t calls_of_one = 0, calls = 0;
+  const Taken by_one = time_of([&] { calls_of_one = one.update().calls.executed; });
+  const Taken by_many = time_of([&] { calls = many.update().calls.executed; });
+  const mesher::MeshStats s = many.stats(), of_one = one.stats();
+  const double in_tiles = s.seconds_quadtree + s.seconds_steiner + s.seconds_triangulate;
+  const double steps_of_one =
+      of_one.seconds_quadtree + of_one.seconds_steiner + of_one.seconds_triangulate;
+  std::printf(
+      "{\"bench\":\"threads\",\"figure\":\"first_run\",%s,\"vertices\":%zu,\"one_s\":%.3f,"
+      "\"many_s\":%.3f,\"speedup\":%.2f,\"around_tiles_s\":%.3f,\"around_one_s\":%.3f,"
+      "\"one_process_s\":%.3f,\"many_process_s\":%.3f,\"calls_over_one\":%.3f,"
+      "\"bytes_over_one\":%.3f,\"quadtree_s\":[%.3f,%.3f],\"steiner_s\":[%.3f,%.3f]}\n",
+      c.name().c_str(), s.vertices, by_one.clock, by_many.clock, by_one.clock / by_many.clock,
+      by_many.clock - in_tiles, by_one.clock - steps_of_one, by_one.process, by_many.process,
+      static_cast<double>(calls) / static_cast<double>(calls_of_one),
+      static_cast<double>(s.trace_bytes) / static_cast<double>(of_one.trace_bytes),
+      of_one.seconds_quadtree, s.seconds_quadtree, of_one.seconds_steiner, s.seconds_steiner);
+  std::vector<double> us_one, us_many;
+  const auto both = [&](auto&& edit) { edit(one), edit(many); };
+  const auto update = [&] {
+    us_one.push_back(1e6 * time_of([&] { one.update(); }).clock);
+    us_many.push_back(1e6 * time_of([&] { many.update(); }).clock);
+  };
+  for (int k = 0; k < 200; ++k) {
+    c.with(c.random.below(c.size()), [&](const auto& l) {
+      both([&](BoxMesher<2>& m) { m.remove_line(l.id); });
+      update();
+      both([&](BoxMesher<2>& m) { Lines::insert_line(m, l); });
+      update();
+    });
+  }
+  for (std::size_t i = 0; i < std::min<std::size_t>(200, c.size()); ++i) {
+    c.with(i * (c.size() / 200 + 1) % c.size(), [&](const auto& l) {
+      if (one.contains_line(l.id)) both([&](BoxMesher<2>& m) { m.remove_line(l.id); });
+    });
+  }
+  const double batch_one = time_of([&] { one.update(); }).clock;
+  const double batch_many = time_of([&] { many.update(); }).clock;
+  std::printf(
+      "{\"bench\":\"threads\",\"figure\":\"updates\",%s,\"one_median_us\":%.1f,"
+      "\"many_median_us\":%.1f,\"one_p99_us\":%.1f,\"many_p99_us\":%.1f,\"one_batch_ms\":%.1f,"
+      "\"many_batch_ms\":%.1f}\n",
+      c.name().c_str(), bench::quantile(us_one, 0.5), bench::quantile(us_many, 0.5),
+      bench::quantile(us_one, 0.99), bench::quantile(us_many, 0.99), 1e3 * batch_one,
+      1e3 * batch_many);
+}
+
+bool bench_lines(const std::string& family, std::size_t n, int threads) {
+  const auto kind = mesher::pslg_kind(family);
+  if (!kind || n == 0 || threads < 1) return false;
+  bench_lines({family, threads, mesher::generate_pslg({*kind, n})});
+  return true;
+}
+
 template <int D>
 bool bench_points(const std::string& family, std::size_t n, int threads) {
   const auto kind = mesher::point_kind(family);
@@ -145,13 +237,15 @@ bool bench_points(const std::string& family, std::size_t n, int threads) {
 }
 
 bool bench_argument(std::string_view text) {
-  const bool in_space = text.substr(0, 3) == "3d:";
+  const bool in_space = text.substr(0, 3) == "3d:", of_lines = text.substr(0, 6) == "lines:";
   if (in_space) text.remove_prefix(3);
+  if (of_lines) text.remove_prefix(6);
   const std::size_t colon = text.find(':'), second = text.find(':', colon + 1);
   if (colon == text.npos || second == text.npos) return false;
   const std::string family(text.substr(0, colon));
   const std::size_t n = std::strtoull(text.data() + colon + 1, nullptr, 10);
   const int threads = std::atoi(text.data() + second + 1);
+  if (of_lines) return bench_lines(family, n, threads);
   return in_space ? bench_points<3>(family, n, threads) : bench_points<2>(family, n, threads);
 }
 
@@ -160,10 +254,12 @@ bool bench_argument(std::string_view text) {
 int main(int argc, char** argv) {
   if (bench::shows_help(argc, argv)) return 0;
   std::vector<std::string_view> cases(argv + 1, argv + argc);
-  if (cases.empty()) cases = {"uniform:1000000:2", "clusters:300000:2", "3d:uniform:100000:2"};
+  if (cases.empty())
+    cases = {"uniform:1000000:2", "clusters:300000:2", "3d:uniform:100000:2",
+             "lines:segments:100000:2"};
   for (const std::string_view text : cases) {
     if (bench_argument(text)) continue;
-    std::fprintf(stderr, "%s: not [3d:]FAMILY:N:THREADS\n", std::string(text).c_str());
+    std::fprintf(stderr, "%s: not [3d:|lines:]FAMILY:N:THREADS\n", std::string(text).c_str());
     return 2;
   }
 }

@@ -336,8 +336,8 @@ void add_threads_option(CLI::App& command, MeshArguments& args) {
   command
       .add_option(
           "--threads", args.threads,
-          "For points alone: mesh, and follow the edits, on N threads; the mesh is that of\n"
-          "one. Once anything else comes, one thread does all (default: 1)")
+          "For points, and lines in the plane: mesh, and follow the edits, on N threads; the mesh\n"
+          "is that of one. Once anything else comes, one thread does all (default: 1)")
       ->type_name("N");
 }
 

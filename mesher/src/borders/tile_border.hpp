@@ -3,6 +3,7 @@
 //   hand_over(s, v, b)   the running call gives birth to v beyond the territory;     (effect)
 //                        who owns the place completes it in bucket b
 //   answer(s, id, found) the running call has looked, for another tile, who is here  (effect)
+//   request_cut(s, ...)  the running call needs a leaf cut: all tiles cut it         (effect)
 //   fault(s, error)      the running call cannot do what it should                   (effect)
 //
 // and the observations of the tile's own calls that reach beyond the territory. Between runs it is
@@ -44,6 +45,10 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     quadtree_ = quadtree;
     stars_ = stars;
   }
+  /// In the plane: who has the points of the whole input, at which segments end. It must outlive
+  /// the tile. Null: there are no segments.
+  void set_ends(const VertexPool<D>* ends) noexcept { ends_ = ends; }
+  [[nodiscard]] const VertexPool<D>* ends() const noexcept { return ends_; }
   [[nodiscard]] bool owns(const Point<D>& p) const noexcept { return all_.owns(self_, p); }
   /// Whether nothing beyond the territory concerns who looks so far around v.
   [[nodiscard]] bool holds(const Vertex<D>& v, const Reach<D>& reach) const noexcept {
@@ -54,7 +59,8 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
                         : call.work_queue == stars_  ? Stage::stars
                                                      : Stage::steiner;
     Turn<D> turn{stage, sac::Slot::of(call).rank, sac::Slot::of(call).order, {}};
-    if (stage == Stage::steiner) {  // Complete, or ComputeNN, of a vertex in a bucket
+    const bool is_cut = turn.key(kKeyWidths).phase > 1;
+    if (stage == Stage::steiner && !is_cut) {  // Complete, or ComputeNN, of a vertex in a bucket
       using Arguments = std::tuple<VertexRef<D>, int>;
       turn.p = std::get<0>(*static_cast<const Arguments*>(call.function().arguments(call)))->p;
     }
@@ -157,12 +163,46 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     answers_[id] = sac::Arena::ref(edge);
     answered_.push_back(id);
   }
-  /// Errors are kept for good: there are few.
-  void fault(sac::Scope& s, const Error& error) {
+  /// `piece`: of a leaf that is cut in bucket b, `key`: when.
+  void request_cut(sac::Scope& s, const Piece& piece, int b, const sac::Key& key) {
+    const auto same = [&](const CutEdge& e) { return e.piece == piece && e.bucket == b; };
+    if (s.recall<CutEdge>(id_, kCut, same) != nullptr) return;
+    make_room(cuts_, live_cuts_ + 1);
+    auto& edge = s.effect<CutEdge>(id_, kCut);
+    ++live_cuts_;
+    edge.piece = piece;
+    edge.bucket = b;
+    edge.rank = kKeyWidths.rank(key);
+    edge.order = key.order;
+    cuts_.push_back({edge.cut(), 1});
+  }
+  /// Errors are kept for good: there are few. `is_near`: a vertex would come too near to others; it
+  /// may when nearness() is less.
+  void fault(sac::Scope& s, const Error& error, bool is_near = false) {
     faults_.push_back(error);
     auto& edge = s.effect<Fault>(id_, kFault);
     edge.error = static_cast<std::uint32_t>(faults_.size() - 1);
-    live_faults_.emplace(edge.error, turn_of(s.self()));
+    live_faults_.emplace(edge.error,
+                         LiveFault{turn_of(s.self()), engine_.handle_of(s.self()), is_near});
+  }
+  [[nodiscard]] bool has_faults() const noexcept { return !live_faults_.empty(); }
+  /// How near vertices may come to others: to begin with 1.
+  [[nodiscard]] double nearness() const noexcept { return nearness_; }
+  void reset_nearness() noexcept { nearness_ = 1; }
+  /// An edit: those that were too near are tried again, and may be nearer. Returns whether there
+  /// are any, and have not been tried often enough.
+  bool try_nearer() {
+    constexpr double kStep = 0x1p-8, kLeast = 0x1p-48;
+    if (nearness_ <= kLeast) return false;
+    bool any = false;
+    for (const auto& [error, fault] : live_faults_) {
+      if (!fault.is_near) continue;
+      if (!any) engine_.begin_edit();
+      any = true;
+      engine_.invalidate(engine_.call(fault.call));
+    }
+    if (any) nearness_ *= kStep;
+    return any;
   }
 
   void looked(const Vertex<D>& center, const Observation<D>& o, double radius) override {
@@ -210,6 +250,12 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     return it != crossing_.end() && it->second.first == e.look;
   }
   [[nodiscard]] std::vector<BirthEvent> take_births() { return taken(births_); }
+  /// By the tile's own names of segments.
+  struct CutEvent {
+    CutOfLeaf<D> cut;
+    int sign;
+  };
+  [[nodiscard]] std::vector<CutEvent> take_cuts() { return taken(cuts_); }
   /// The questions whose answers may have changed; some more than once.
   [[nodiscard]] std::vector<std::uint32_t> take_answered() { return taken(answered_); }
   /// Who was found; nobody if the question is no more.
@@ -222,8 +268,8 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
   /// The first fault that there is, by turn.
   [[nodiscard]] std::optional<std::pair<Turn<D>, Error>> first_fault() const {
     std::optional<std::pair<Turn<D>, std::uint32_t>> first;
-    for (const auto& [error, turn] : live_faults_) {
-      if (!first || std::pair(turn, error) < *first) first = {turn, error};
+    for (const auto& [error, fault] : live_faults_) {
+      if (!first || std::pair(fault.turn, error) < *first) first = {fault.turn, error};
     }
     if (!first) return std::nullopt;
     return std::pair(first->first, faults_[first->second]);
@@ -245,6 +291,9 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
       if (it != scripts_.end() && it->second.reader == engine_.handle_of(call)) {
         it->second.reader = nullptr;
       }
+    } else if (edge.kind == kCut) {
+      cuts_.push_back({static_cast<CutEdge&>(edge).cut(), -1});
+      --live_cuts_;
     } else {
       live_faults_.erase(static_cast<Fault&>(edge).error);
     }
@@ -255,6 +304,7 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
   static constexpr std::uint8_t kAnswer = 1;
   static constexpr std::uint8_t kFault = 2;
   static constexpr std::uint8_t kScript = 3;
+  static constexpr std::uint8_t kCut = 4;
   struct HandOver : sac::Edge {
     VertexHandle vertex;
     std::int32_t bucket;
@@ -271,6 +321,15 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
   };
   struct Fault : sac::Edge {
     std::uint32_t error;
+  };
+  struct CutEdge : sac::Edge {
+    Piece piece;
+    std::int32_t bucket;
+    std::uint32_t rank;
+    std::uint64_t order;
+    [[nodiscard]] CutOfLeaf<D> cut() const noexcept {
+      return {piece, bucket, {Stage::steiner, rank, order, {}}};
+    }
   };
 
   struct Kept {
@@ -335,17 +394,26 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
   double side_;
   std::uint8_t id_;
   const VertexPool<D>* pool_ = nullptr;
+  const VertexPool<D>* ends_ = nullptr;
   std::uint64_t quadtree_ = 0, stars_ = 0;
   std::unordered_map<sac::Handle, std::pair<Look<D>, Box<D>>> crossing_;
   std::vector<LookEvent> looks_;
   std::multiset<Birth<D>> born_;  // beyond the territory
   std::vector<BirthEvent> births_;
+  std::vector<CutEvent> cuts_;
+  std::size_t live_cuts_ = 0;
   std::unordered_map<std::uint32_t, sac::Ref<Answer>> answers_;
   std::vector<std::uint32_t> answered_;
   std::map<Turn<D>, Script> scripts_;
   std::vector<Turn<D>> edited_;  // since some were forgotten last
   std::vector<Error> faults_;
-  std::unordered_map<std::uint32_t, Turn<D>> live_faults_;
+  struct LiveFault {
+    Turn<D> turn;
+    sac::Ref<sac::Call> call;
+    bool is_near;
+  };
+  std::unordered_map<std::uint32_t, LiveFault> live_faults_;
+  double nearness_ = 1;
 };
 
 }  // namespace mesher::detail

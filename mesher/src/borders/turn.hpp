@@ -5,16 +5,20 @@
 #include <cstdint>
 
 #include "mesher/mesh.hpp"
+#include "records/roles.hpp"
 #include "sac/key.hpp"
 #include "sac/label.hpp"
 
 namespace mesher::detail {
 
+/// Of all agendas: many buckets, three phases, a colour for each parity of coordinates.
+inline constexpr sac::KeyWidths kKeyWidths{.bucket = 26, .phase = 2, .colour = 4};
+
 /// The agendas of the program, in their order.
 enum class Stage : std::uint8_t { quadtree, steiner, stars };
 
-/// `p`: of Complete, the place of its vertex; calls of one rank and order run in the order of
-/// these.
+/// `p`: of ComputeNN and Complete, the place of the vertex; calls of one rank and order run in the
+/// order of these.
 template <int D>
 struct Turn {
   Stage stage = Stage::quadtree;
@@ -45,13 +49,23 @@ struct Look {
 };
 
 /// A vertex that is born at this turn. `bucket`: when it is to be completed, by who owns its place;
-/// negative: it is only seen.
+/// negative: it is only seen. `role`: on a segment as all tiles call it.
 template <int D>
 struct Birth {
   Point<D> p{};
   int bucket = -1;
   Turn<D> turn;
+  Role role{};
   friend auto operator<=>(const Birth&, const Birth&) = default;
+};
+
+/// A leaf that is cut at this turn, in a bucket; on a segment as all tiles call it.
+template <int D>
+struct CutOfLeaf {
+  Piece piece;
+  int bucket = 0;
+  Turn<D> turn;
+  friend auto operator<=>(const CutOfLeaf&, const CutOfLeaf&) = default;
 };
 
 template <int D>

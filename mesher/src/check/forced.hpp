@@ -38,9 +38,18 @@ template <class Vertex, class PlaceOf>
   }
   return best;
 }
-/// The order of reports.
+/// As many more as another count of the same angle has.
+inline void add_count(SmallAngle& angle, const SmallAngle& more) {
+  if (more.forced == 0) return;
+  angle.forced += more.forced;
+  keep_smallest(angle.smallest_deg, more.smallest_deg);
+}
+/// The order of reports. Two angles of one line with itself may differ in the counts alone.
 [[nodiscard]] inline bool is_before(const SmallAngle& a, const SmallAngle& b) {
-  return std::tie(a.at, a.degrees, a.lines) < std::tie(b.at, b.degrees, b.lines);
+  const auto key = [](const SmallAngle& x) {
+    return std::tie(x.at, x.degrees, x.lines, x.forced, x.smallest_deg);
+  };
+  return key(a) < key(b);
 }
 /// Short lengths that limits of size ask for are no fault.
 [[nodiscard]] inline bool is_wanted(const ShrunkVertex& v, const Limits<2>& limits) {

@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
-#include <map>
 #include <utility>
 
 #include "check/forced.hpp"
 #include "check/shrink_test.hpp"
+#include "facade/tile_mesh.hpp"
 #include "mesher/check.hpp"
 #include "plane/exempt.hpp"
 #include "sets/make_set.hpp"
@@ -20,11 +21,12 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // The input as the program has it.
+template <class AnyMesh>
 class WorldInput {
  public:
-  explicit WorldInput(World<sac::Scope>& world) : world_(world) {}
+  explicit WorldInput(const AnyMesh& mesh) : mesh_(mesh), world_(mesh.world()) {}
 
-  [[nodiscard]] const Point<2>& place(VertexHandle v) const { return world_.vertices.pool()[v].p; }
+  [[nodiscard]] const Point<2>& place(VertexHandle v) const { return mesh_.vertex(v).p; }
   [[nodiscard]] std::vector<std::uint32_t> codes_near(const Point<2>& p, double r) const {
     std::vector<std::uint32_t> near;
     near.reserve(32);
@@ -37,7 +39,7 @@ class WorldInput {
     return near;
   }
   [[nodiscard]] SegmentHandle through(VertexHandle v) const {
-    const SegmentHandle on = world_.vertices.role(world_.vertices.pool()[v]).on;
+    const SegmentHandle on = mesh_.role(v).on;
     return on != 0 ? on : kPointFeature;
   }
   [[nodiscard]] std::array<VertexHandle, 2> ends(SegmentHandle s) const {
@@ -84,105 +86,125 @@ class WorldInput {
     });
   }
 
+  const AnyMesh& mesh_;
   World<sac::Scope>& world_;
 };
 
 }  // namespace
 
-AngleNews AngleFinder::news(std::vector<Triangle> come) const {
+void AngleParts::add(AngleParts&& more) {
+  for (const auto& [wedge, angle] : more.forced) {
+    const auto [it, is_new] = forced.try_emplace(wedge, angle);
+    if (!is_new) add_count(it->second, angle);
+  }
+  std::move(more.shrunk.begin(), more.shrunk.end(), std::back_inserter(shrunk));
+}
+
+AngleNews AngleParts::news() && {
+  AngleNews news;
+  for (const auto& [wedge, angle] : forced) news.forced.push_back(angle);
+  std::sort(news.forced.begin(), news.forced.end(), is_before);
+  std::sort(shrunk.begin(), shrunk.end(), [](auto& a, auto& b) { return a.at < b.at; });
+  news.shrunk = std::move(shrunk);
+  return news;
+}
+
+template <class AnyMesh>
+AngleNews AngleFinder<AnyMesh>::news(const std::vector<Triangle>& come) const {
   if (world_.segments.store().live() == 0) return {};
-  const auto is_before = [&](VertexHandle a, VertexHandle b) { return place(a) < place(b); };
-  for (Triangle& t : come) {  // what is said of it is not to depend on handles
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end(), is_before), t.end());
-  }
-  return {forced(come), shrunk(come)};
+  std::vector<VertexHandle> corners;
+  for (const Triangle& t : come) corners.insert(corners.end(), t.begin(), t.end());
+  make_set(corners);
+  return parts(come, corners).news();
 }
 
-template <class Visit>
-void AngleFinder::for_each_neighbour(const Vertex<2>& v, Visit&& visit) const {
-  const auto& pool = world_.vertices.pool();
-  world_.vertices.for_each_simplex_at(
-      v, [&](const Triangle& t) { visit(pool[t[1]]), visit(pool[t[2]]); });
-}
-
-bool AngleFinder::is_poor(const Triangle& t) const {
-  return radius_edge(place(t[0]), place(t[1]), place(t[2])) > rho_ * (1 + kPoorRounding);
-}
-
-std::vector<SmallAngle> AngleFinder::forced(const std::vector<Triangle>& come) const {
-  const WorldInput input(world_);
-  std::map<std::array<std::uint32_t, 3>, SmallAngle> angles;
-  const auto angle = [&](const Wedge& w) -> SmallAngle& {
-    const auto [s, t] = std::minmax({w.s, w.t});
-    const auto [it, is_new] = angles.try_emplace({w.apex, s, t});
-    if (is_new) {
-      const auto [one, other] = std::minmax({input.line(s), input.line(t)});
-      it->second.at = place(w.apex);
-      it->second.lines = {one, other};
-      it->second.degrees = input.degrees(s, t, w.apex);
-    }
-    return it->second;
-  };
-  for (const Triangle& t : come) {
-    if (!is_poor(t)) continue;
-    const auto [p, q] = shortest_edge(t, [&](VertexHandle v) { return place(v); });
-    const auto& pool = world_.vertices.pool();
-    const double degrees = smallest_angle_deg(place(t[0]), place(t[1]), place(t[2]));
-    for (const Wedge& w :
-         wedges_across(world_.vertices, world_.segments.store(), pool[p], pool[q], false)) {
-      count(angle(w), degrees);
-    }
-  }
-  std::vector<SmallAngle> all;
-  for (const auto& [key, found] : angles) all.push_back(found);
-  std::sort(all.begin(), all.end(), is_before);
+template <class AnyMesh>
+AngleParts AngleFinder<AnyMesh>::parts(const std::vector<Triangle>& come,
+                                       const std::vector<VertexHandle>& corners) const {
+  AngleParts all;
+  for (const Triangle& t : come) find_forced(t, all);
+  all.shrunk = shrunk(corners);
   return all;
 }
 
+template <class AnyMesh>
+bool AngleFinder<AnyMesh>::is_poor(const Triangle& t) const {
+  return radius_edge(place(t[0]), place(t[1]), place(t[2])) > rho_ * (1 + kPoorRounding);
+}
+
+template <class AnyMesh>
+void AngleFinder<AnyMesh>::find_forced(Triangle t, AngleParts& parts) const {
+  const WorldInput<AnyMesh> input(mesh_);
+  const auto angle = [&](const Wedge& w) -> SmallAngle& {
+    const auto [first, second] = std::minmax({w.s, w.t});
+    const auto [it, is_new] = parts.forced.try_emplace({w.apex, first, second});
+    if (is_new) {
+      const auto [one, other] = std::minmax({input.line(first), input.line(second)});
+      it->second.at = place(w.apex);
+      it->second.lines = {one, other};
+      it->second.degrees = input.degrees(first, second, w.apex);
+    }
+    return it->second;
+  };
+  const auto is_before = [&](VertexHandle a, VertexHandle b) { return place(a) < place(b); };
+  // What is said of it is not to depend on handles.
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end(), is_before), t.end());
+  if (!is_poor(t)) return;
+  const auto [p, q] = shortest_edge(t, [&](VertexHandle v) { return place(v); });
+  const double degrees = smallest_angle_deg(place(t[0]), place(t[1]), place(t[2]));
+  for (const Wedge& w : wedges_across(world_.segments.store(), on_lines(p), on_lines(q), false)) {
+    count(angle(w), degrees);
+  }
+}
+
 // To the nearest neighbour that counts.
-double AngleFinder::nearest(const Vertex<2>& v) const {
+template <class AnyMesh>
+double AngleFinder<AnyMesh>::nearest(VertexHandle v) const {
   double nearest2 = kInfinity;
-  for_each_neighbour(v, [&](const Vertex<2>& w) {
-    const double far2 = distance2(v.p, w.p, w.p);
+  for_each_neighbour(v, [&](VertexHandle w) {
+    const double far2 = distance2(place(v), place(w), place(w));
     if (far2 >= nearest2) return;
     const auto& store = world_.segments.store();
-    if (wedges_across(world_.vertices, store, v, w, true).empty()) nearest2 = far2;
+    if (wedges_across(store, on_lines(v), on_lines(w), true).empty()) nearest2 = far2;
   });
   return std::sqrt(nearest2);
 }
 
 // Whether two features without a common point are within r of v, most of the time: v or its segment
 // and an input point, or two of these, among v's neighbours or further away.
-bool AngleFinder::is_near_two(const Vertex<2>& v, double r) const {
-  const SegmentHandle on = world_.vertices.role(v).on;
-  VertexHandle first = v.input ? v.self : 0;
-  const auto is_second = [&](const Vertex<2>& w) {
-    if (!w.input || w.self == first || distance2(v.p, w.p, w.p) > r * r) return false;
-    if (on != 0 && !world_.segments.pool()[on].has_end(w.self)) return true;
-    return std::exchange(first, w.self) != 0;
+template <class AnyMesh>
+bool AngleFinder<AnyMesh>::is_near_two(VertexHandle h, double r) const {
+  const Point<2> p = place(h);
+  const SegmentHandle on = mesh_.role(h).on;
+  VertexHandle first = mesh_.vertex(h).input ? h : 0;
+  const auto is_second = [&](VertexHandle other, const Vertex<2>& w) {
+    if (!w.input || other == first || distance2(p, w.p, w.p) > r * r) return false;
+    if (on != 0 && !world_.segments.pool()[on].has_end(other)) return true;
+    return std::exchange(first, other) != 0;
   };
   bool found = false;
-  for_each_neighbour(v, [&](const Vertex<2>& w) { found = found || is_second(w); });
-  return found || world_.features.visit_points_in(around(v.p, r), is_second);
+  for_each_neighbour(h, [&](VertexHandle w) { found = found || is_second(w, mesh_.vertex(w)); });
+  return found || world_.features.visit_points_in(
+                      around(p, r), [&](const Vertex<2>& w) { return is_second(w.self, w); });
 }
 
-std::vector<ShrunkVertex> AngleFinder::shrunk(const std::vector<Triangle>& come) const {
-  std::vector<VertexHandle> corners;
-  for (const Triangle& t : come) corners.insert(corners.end(), t.begin(), t.end());
-  make_set(corners);
-  const WorldInput input(world_);
-  const ShrinkTest<WorldInput> test(input, kShrinks, world_.box.side);
+template <class AnyMesh>
+std::vector<ShrunkVertex> AngleFinder<AnyMesh>::shrunk(
+    const std::vector<VertexHandle>& corners) const {
+  const WorldInput<AnyMesh> input(mesh_);
+  const ShrinkTest<WorldInput<AnyMesh>> test(input, kShrinks, world_.box.side);
   std::vector<ShrunkVertex> found;
-  for (const VertexHandle h : corners) {
-    const Vertex<2>& v = world_.vertices.pool()[h];
-    const double length = v.boundary ? kInfinity : nearest(v);
+  for (const VertexHandle v : corners) {
+    const double length = mesh_.vertex(v).boundary ? kInfinity : nearest(v);
     if (length == kInfinity || is_near_two(v, kShrinks * length)) continue;
-    if (!test.has_shrunk(h, length)) continue;
-    ShrunkVertex shrunk = test.report(h, length);
+    if (!test.has_shrunk(v, length)) continue;
+    ShrunkVertex shrunk = test.report(v, length);
     if (!is_wanted(shrunk, world_.limits)) found.push_back(std::move(shrunk));
   }
-  std::sort(found.begin(), found.end(), [](auto& a, auto& b) { return a.at < b.at; });
   return found;
 }
+
+template class AngleFinder<WorldMesh>;
+template class AngleFinder<TileMesh>;
 
 }  // namespace mesher::detail

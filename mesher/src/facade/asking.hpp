@@ -4,8 +4,12 @@
 #include <functional>
 
 #include "program/meter.hpp"
+#include "sac/engine.hpp"
 
 namespace mesher::detail {
+
+/// As the engine does, so that what was announced stays.
+[[noreturn]] inline void fail_stopped() { throw sac::Cancelled(); }
 
 /// Reports that this phase has begun, as often as it is called; if the run shall stop it calls
 /// `fail`, which throws. `control` must outlive it. Throws: also what control.progress throws.

@@ -7,17 +7,37 @@
 #include "facade/announced_points.hpp"
 #include "facade/reentry_guard.hpp"
 #include "facade/state.hpp"
+#include "facade/tiled_plane_state.hpp"
 #include "facade/tiled_state.hpp"
 #include "facade/whole_change.hpp"
 #include "geometry/input_point.hpp"
 #include "live/live_arrays.hpp"
 #include "mesher/predicates.hpp"
+#include "mesher/reports.hpp"
 #include "program/meter.hpp"
 #include "program/space_input.hpp"
 #include "rules/mesh_box.hpp"
 #include "text/id_text.hpp"
 
 namespace mesher {
+
+namespace detail {
+
+namespace {
+
+/// For a first run with these edits.
+template <int D>
+std::unique_ptr<AnyState<D>> state_for(const Options<D>& options, const Edits<D>& edits) {
+  if (may_be_tiled(options, edits)) return std::make_unique<TiledState<D>>(options);
+  if constexpr (D == 2) {
+    if (may_have_lines_tiled(options, edits)) return std::make_unique<TiledPlaneState>(options);
+  }
+  return std::make_unique<State<D>>(options);
+}
+
+}  // namespace
+
+}  // namespace detail
 
 template <int D>
 struct BoxMesher<D>::Impl {
@@ -44,8 +64,10 @@ struct BoxMesher<D>::Impl {
   void discard_edits() noexcept;
   using LastWord = typename State::Accept;
   [[nodiscard]] detail::PointEdits<D> all_points() const;
-  Change<D> run_anew(const RunControl& control, const LastWord& accept);
+  [[nodiscard]] detail::StagedLines all_lines() const;
+  Change<D> run_anew(const RunControl& control, const LastWord& accept, int threads);
   Change<D> run(const RunControl& control, const LastWord& accept);
+  Change<D> run_or_alone(const RunControl& control, const LastWord& accept);
   Change<D> run_with_slots(const RunControl& control, const Accept& accept);
   Change<D> update(const RunControl& control, const Accept& accept);
 
@@ -186,13 +208,32 @@ detail::PointEdits<D> BoxMesher<D>::Impl::all_points() const {
   return all.sorted();
 }
 
-// Everything in one piece: there have been points alone so far.
+// The lines that there will be, likewise.
 template <int D>
-Change<D> BoxMesher<D>::Impl::run_anew(const RunControl& control, const LastWord& accept) {
-  auto fresh = std::make_unique<State>(pending_options());
-  const Mesh<D> before = state->mesh();
-  Change<D> change = fresh->first_run({all_points(), lines, polygons}, control, [&](Change<D>& c) {
+detail::StagedLines BoxMesher<D>::Impl::all_lines() const {
+  detail::StagedLines all;
+  for (const auto& [id, points] : lines.committed()) all.set(id, points);
+  lines.for_each_edit([&](LineId id, const detail::LinePoints*, const detail::LinePoints* is) {
+    all.set(id, is != nullptr ? std::optional(*is) : std::nullopt);
+  });
+  return all;
+}
+
+// A state by another means, from the start: of all, with as many threads.
+template <int D>
+Change<D> BoxMesher<D>::Impl::run_anew(const RunControl& control, const LastWord& accept,
+                                       int threads) {
+  Options<D> now = pending_options();
+  now.threads = threads;
+  const detail::StagedLines every_line = all_lines();
+  detail::Edits<D> edits{all_points(), every_line, polygons};
+  std::unique_ptr<detail::AnyState<D>> fresh = detail::state_for(now, edits);
+  const Mesh<D> before = state->ran() ? state->mesh() : Mesh<D>();
+  Change<D> change = fresh->first_run(std::move(edits), control, [&](Change<D>& c) {
     detail::count_from(before, c);
+    if constexpr (D == 2) {
+      if (!before.vertices.empty()) c.angles = angle_news(fresh->mesh(), now, c.simplices_added);
+    }
     if (accept) accept(c);
   });
   state = std::move(fresh);
@@ -205,20 +246,24 @@ Change<D> BoxMesher<D>::Impl::run(const RunControl& control, const LastWord& acc
   if (state->ran()) {
     const detail::Edits<D> edits{points.pending().sorted(), lines, polygons,
                                  pending_limits.edit(options)};
-    if (!state->takes(edits)) return run_anew(control, accept);
-    return state->propagate(edits, control, accept);
+    if (state->takes(edits)) return state->propagate(edits, control, accept);
+    return run_anew(control, accept, options.threads);
   }
   const Options<D> now = pending_options();
   detail::Edits<D> edits{points.pending().sorted(), lines, polygons};
-  std::unique_ptr<detail::AnyState<D>> fresh;
-  if (detail::may_be_tiled(now, edits)) {
-    fresh = std::make_unique<detail::TiledState<D>>(now);
-  } else {
-    fresh = std::make_unique<State>(now);
-  }
+  std::unique_ptr<detail::AnyState<D>> fresh = detail::state_for(now, edits);
   Change<D> change = fresh->first_run(std::move(edits), control, accept);
   state = std::move(fresh);
   return change;
+}
+
+template <int D>
+Change<D> BoxMesher<D>::Impl::run_or_alone(const RunControl& control, const LastWord& accept) {
+  try {
+    return run(control, accept);
+  } catch (const detail::NotInTiles&) {
+    return run_anew(control, accept, 1);
+  }
 }
 
 template <int D>
@@ -228,7 +273,7 @@ Change<D> BoxMesher<D>::Impl::run_with_slots(const RunControl& control, const Ac
     if (accept) accept(change);
   };
   try {
-    Change<D> change = run(control, last_word);
+    Change<D> change = run_or_alone(control, last_word);
     if (live) live->keep();
     return change;
   } catch (...) {

@@ -35,14 +35,15 @@ OnFeatures PlaneState::on_features(const std::vector<Simplex>&) const {
   return all;
 }
 
+bool PlaneState::any_renamed() const {
+  const auto& added = segment_names_.added();
+  return std::any_of(added.begin(), added.end(), [&](SegmentHandle s) { return is_renamed(s); });
+}
+
 // Leaves that stay, of segments that are now of another line. That is so rare that all leaves are
 // looked at then.
 void PlaneState::report_renamed(LineEdges& gone, LineEdges& come) const {
-  const auto is_renamed = [&](SegmentHandle s) {
-    return segment_names_.taken().contains(s) && old_line(s) != line(s);
-  };
-  const auto& added = segment_names_.added();
-  if (!std::any_of(added.begin(), added.end(), is_renamed)) return;
+  if (!any_renamed()) return;
   world_->leaves.for_each([&](const Leaf& leaf) {
     const SegmentHandle s = leaf.piece.segment;
     if (!leaf.committed || !is_renamed(s)) return;
@@ -100,7 +101,8 @@ void PlaneState::require_features(const Log& log) const {
 }
 
 void PlaneState::find_angles(const std::vector<Simplex>& come, Change<2>& change) const {
-  change.angles = AngleFinder(*world_, rho_).news(come);
+  const WorldMesh mesh(*world_);
+  change.angles = AngleFinder<WorldMesh>(mesh, rho_).news(come);
 }
 
 }  // namespace mesher::detail

@@ -39,9 +39,6 @@ class Watch {
   sac::Engine& engine_;
 };
 
-// As the engine does, so that what was announced stays.
-[[noreturn]] void fail_stopped() { throw sac::Cancelled(); }
-
 }  // namespace
 
 template <int D>
@@ -194,6 +191,7 @@ Vertex<D>& PointState<D>::add(const Point<D>& p) {
   engine_->on_rollback([&v] { v.input = false; });
   v.input = true;
   features().insert(v);
+  if (!world_->locates) return v;
   world_->quadtree.template post_from_outside<locate>(locate_key(box_.fixed(p)), VertexRef<D>{&v});
   return v;
 }
@@ -205,6 +203,7 @@ void PointState<D>::take(Vertex<D>& v) {
   engine_->on_rollback([&v] { v.input = true; });
   v.input = false;
   features().erase(v);
+  if (!world_->locates) return;
   world_->quadtree.template retract_from_outside<locate>(VertexRef<D>{&v});
 }
 

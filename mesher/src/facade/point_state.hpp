@@ -110,25 +110,31 @@ class PointState : public AnyState<D> {
   /// Called while the input is looked at before a run. Throws: sac::Cancelled, or what
   /// control.progress throws.
   std::function<void()> ask_;
+  bool ran_ = false;
+  MeshStats stats_;
+
+  // --- The parts of runs
+  void add_first(const typename Pending<D>::Edit& edit);
+  /// Makes edits in the engine. Throws: Error, and then has made none.
+  void make(const Edits<D>& edits);
+  /// So that rename() cannot fail.
+  void make_room();
+  void rename(const PointEdits<D>& edits) noexcept;
+  /// Forgets what an update brings.
+  void forget() noexcept;
+  /// Frees what nobody refers to any more.
+  void commit() noexcept;
 
  private:
-  void add_first(const typename Pending<D>::Edit& edit);
   void post_all();
-  void make(const Edits<D>& edits);
   Vertex<D>& claim(const Point<D>& p);
   Vertex<D>& add(const Point<D>& p);
   void take(Vertex<D>& v);
-  void commit() noexcept;
   void settle() noexcept;
-  void make_room();
-  void rename(const PointEdits<D>& edits) noexcept;
-  void forget() noexcept;
   void require_room(std::size_t vertices) const;
   void report_vertices(const Log& log, Change<D>& change) const;
   void report_simplices(const Log& log, Change<D>& change) const;
 
-  bool ran_ = false;
-  MeshStats stats_;
   // What an update brings, until it is done.
   Ids arrived_;
   std::unordered_map<VertexHandle, PointId> arrived_names_;

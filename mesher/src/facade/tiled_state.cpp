@@ -2,12 +2,11 @@
 #include "facade/tiled_state.hpp"
 
 #include <algorithm>
-#include <map>
 
+#include "facade/tile_changes.hpp"
 #include "facade/whole_change.hpp"
 #include "program/meter.hpp"
 #include "rules/mesh_box.hpp"
-#include "sets/report_difference.hpp"
 #include "sizes/limits_of.hpp"
 #include "tiles/on_threads.hpp"
 
@@ -23,11 +22,24 @@ bool has_slivers(const Options<D>& options) {
 
 }  // namespace
 
+namespace {
+
+template <int D>
+bool may_have_points_tiled(const Options<D>& options, const Edits<D>& edits) {
+  return options.threads > 1 && options.rule == Rule::radius_edge && edits.points.size() > 1 &&
+         !edits.polygons.has_edits() && !options.record_weights && !has_slivers(options) &&
+         !LimitsOf<D>(options, mesh_box(options)).any();
+}
+
+}  // namespace
+
 template <int D>
 bool may_be_tiled(const Options<D>& options, const Edits<D>& edits) {
-  return options.threads > 1 && options.rule == Rule::radius_edge && edits.points.size() > 1 &&
-         !edits.lines.has_edits() && !edits.polygons.has_edits() && !options.record_weights &&
-         !has_slivers(options) && !LimitsOf<D>(options, mesh_box(options)).any();
+  return !edits.lines.has_edits() && may_have_points_tiled(options, edits);
+}
+
+bool may_have_lines_tiled(const Options<2>& options, const Edits<2>& edits) {
+  return may_have_points_tiled(options, edits);
 }
 
 template <int D>
@@ -134,14 +146,7 @@ Change<D> TiledState<D>::first_run(Edits<D> edits, const RunControl& control,
     change = whole_change(mesh());
     drop_others(change);
   });
-  stats_.vertices = change.vertices_added.size();
-  stats_.simplices = change.simplices_added.size();
-  for (std::size_t i = 0; i < 3; ++i) {
-    double& seconds = i == 0   ? stats_.seconds_quadtree
-                      : i == 1 ? stats_.seconds_steiner
-                               : stats_.seconds_triangulate;
-    seconds = tiles_->seconds()[i];
-  }
+  set_first(stats_, change, *tiles_);
   change.calls.executed = tiles_->calls();
   if (accept) accept(change);
   return change;
@@ -233,21 +238,12 @@ void TiledState<D>::take_back(Moves moves) {
 }
 
 template <int D>
-TiledState<D>::Growth::Growth(const Change<D>& change) {
-  const auto more = [](const auto& come, const auto& gone) {
-    return static_cast<std::ptrdiff_t>(come.size()) - static_cast<std::ptrdiff_t>(gone.size());
-  };
-  vertices = more(change.vertices_added, change.vertices_removed);
-  simplices = more(change.simplices_added, change.simplices_removed);
-}
-
-template <int D>
 Change<D> TiledState<D>::propagate(const Edits<D>& edits, const RunControl& control,
                                    const Accept& accept) {
   SAC_EXPECTS(takes(edits));
   Moves moves;
   Change<D> change;
-  std::optional<Growth> growth;  // of this process's part, before `accept` makes more of it
+  std::optional<Growth<D>> growth;  // of this process's part, before `accept` makes more of it
   const std::uint64_t before = tiles_->calls();
   typename TiledMesher<D>::Ask ask;
   std::function<void(TileChanges&)> last;
@@ -256,7 +252,7 @@ Change<D> TiledState<D>::propagate(const Edits<D>& edits, const RunControl& cont
     together(peers_, [&] {
       ask = [&](Phase phase, std::uint64_t calls) { return report(control, {phase, calls, 0}); };
       last = [&](TileChanges& changes) {
-        together(peers_, [&] { change = change_of(changes); });
+        together(peers_, [&] { change = change_of<D>(changes); });
         growth.emplace(change);
         change.calls.executed = tiles_->calls() - before;
         if (accept) accept(change);
@@ -270,38 +266,7 @@ Change<D> TiledState<D>::propagate(const Edits<D>& edits, const RunControl& cont
     throw;
   }
   for (const auto& node : moves.gone) points_.release(points_[node.mapped()]);
-  stats_.vertices += static_cast<std::size_t>(growth->vertices);
-  stats_.simplices += static_cast<std::size_t>(growth->simplices);
-  return change;
-}
-
-// What has come and gone again on the way is left out.
-template <int D>
-Change<D> TiledState<D>::change_of(TileChanges& changes) const {
-  Change<D> change;
-  struct Fate {
-    std::optional<VertexKind> before, now;
-    bool is_known = false;
-  };
-  std::map<Point<D>, Fate> fates;
-  for (const auto& e : changes.vertices) {
-    Fate& fate = fates[e.p];
-    if (!fate.is_known && !e.came) fate.before = e.kind;
-    fate.is_known = true;
-    fate.now = e.came ? std::optional(e.kind) : std::nullopt;
-  }
-  for (const auto& [p, fate] : fates) {
-    if (!fate.before && fate.now) {
-      change.vertices_added.push_back(p);
-      change.kinds_added.push_back(*fate.now);
-    } else if (fate.before && !fate.now) {
-      change.vertices_removed.push_back(p);
-    } else if (fate.before != fate.now) {
-      change.kinds_changed.push_back({p, *fate.before, *fate.now});
-    }
-  }
-  report_difference(changes.simplices_come, changes.simplices_gone, change.simplices_added,
-                    change.simplices_removed);
+  growth->add_to(stats_);
   return change;
 }
 
@@ -318,13 +283,7 @@ Mesh<D> TiledState<D>::mesh() const {
 template <int D>
 MeshStats TiledState<D>::stats() const {
   MeshStats s = stats_;
-  if (tiles_ == nullptr) return s;
-  for (std::size_t t = 0; t < tiles_->size(); ++t) {
-    const auto& tile = (*tiles_)[t];
-    s.calls += tile.engine().live_calls();
-    s.edges += tile.engine().live_edges();
-    s.trace_bytes += tile.bytes();
-  }
+  if (tiles_ != nullptr) add_trace(*tiles_, s);
   return s;
 }
 

@@ -19,6 +19,8 @@ namespace mesher::detail {
 /// Whether a mesher that begins with these edits may be in tiles.
 template <int D>
 [[nodiscard]] bool may_be_tiled(const Options<D>& options, const Edits<D>& edits);
+/// The same with lines in the plane (tiled_plane_state.hpp).
+[[nodiscard]] bool may_have_lines_tiled(const Options<2>& options, const Edits<2>& edits);
 
 template <int D>
 class TiledState final : public AnyState<D> {
@@ -71,19 +73,12 @@ class TiledState final : public AnyState<D> {
     std::vector<std::pair<VertexHandle, std::optional<int>>> levels;  // as they were
   };
 
-  // What an update changes in the sizes.
-  struct Growth {
-    std::ptrdiff_t vertices = 0, simplices = 0;
-    explicit Growth(const Change<D>& change);
-  };
-
   void drop_others(Change<D>& change) const;
   [[nodiscard]] std::unique_ptr<TiledMesher<D>> build(const typename TiledMesher<D>::Ask& ask);
   void find_levels(std::size_t threads);
   VertexHandle add_point(PointId id, const Point<D>& p);
   [[nodiscard]] TileEdits make(const PointEdits<D>& edits, Moves& moves);
   void take_back(Moves moves);
-  [[nodiscard]] Change<D> change_of(TileChanges& changes) const;
 
   Options<D> options_;
   Alone alone_;

@@ -31,11 +31,20 @@ template <int D>
   return change;
 }
 
-/// Makes of the change from nothing to a mesh that from `before`, which has no edges and faces on
-/// features. Cost: O(the size of both).
+/// What `come` has more than `was`, and the reverse; all ascending.
+template <class T>
+void keep_difference(std::vector<T>& come, const std::vector<T>& was, std::vector<T>& gone) {
+  const std::vector<T> all = std::move(come);
+  come.clear();
+  std::set_difference(all.begin(), all.end(), was.begin(), was.end(), std::back_inserter(come));
+  std::set_difference(was.begin(), was.end(), all.begin(), all.end(), std::back_inserter(gone));
+}
+
+/// Makes of the change from nothing to a mesh that from `before`, which has no faces on features.
+/// Cost: O(the size of both).
 template <int D>
 void count_from(const Mesh<D>& before, Change<D>& change) {
-  const Change<D> was = whole_change(before);
+  Change<D> was = whole_change(before);
   const std::vector<Point<D>> vertices = std::move(change.vertices_added);
   const std::vector<VertexKind> kinds = std::move(change.kinds_added);
   change.vertices_added.clear();
@@ -58,12 +67,10 @@ void count_from(const Mesh<D>& before, Change<D>& change) {
   for (; k < was.vertices_added.size(); ++k) {
     change.vertices_removed.push_back(was.vertices_added[k]);
   }
-  const auto simplices = std::move(change.simplices_added);
-  change.simplices_added.clear();
-  std::set_difference(simplices.begin(), simplices.end(), was.simplices_added.begin(),
-                      was.simplices_added.end(), std::back_inserter(change.simplices_added));
-  std::set_difference(was.simplices_added.begin(), was.simplices_added.end(), simplices.begin(),
-                      simplices.end(), std::back_inserter(change.simplices_removed));
+  keep_difference(change.simplices_added, was.simplices_added, change.simplices_removed);
+  std::sort(change.edges_added.begin(), change.edges_added.end());
+  std::sort(was.edges_added.begin(), was.edges_added.end());
+  keep_difference(change.edges_added, was.edges_added, change.edges_removed);
 }
 
 }  // namespace mesher::detail

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "geometry/grid.hpp"
+#include "records/tally.hpp"
 #include "records/vertex.hpp"
 #include "sac/check.hpp"
 
@@ -78,7 +79,9 @@ class FeatureTree {
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   /// Blocks and points that visit_in has looked at so far.
-  [[nodiscard]] std::uint64_t looked_at() const noexcept { return looked_at_; }
+  [[nodiscard]] std::uint64_t looked_at() const noexcept { return looked_at_.count(); }
+  /// While it is held several threads may visit_in() at once, and nothing is counted.
+  void hold(bool held) noexcept { looked_at_.hold(held); }
   [[nodiscard]] std::size_t bytes() const noexcept {
     return blocks_.capacity() * sizeof(Block) + free_.capacity() * sizeof(std::uint32_t);
   }
@@ -165,7 +168,7 @@ class FeatureTree {
   std::vector<std::uint32_t> free_;
   Node root_ = 0;
   std::size_t size_ = 0;
-  mutable std::uint64_t looked_at_ = 0;
+  mutable Tally looked_at_;
 };
 
 template <int D>
@@ -279,7 +282,7 @@ bool FeatureTree<D>::visit_in(const Box<D>& area, Visit&& visit) const {
   while (open > 0) {
     const Step at = stack[--open];
     if (at.node == 0) continue;
-    ++looked_at_;
+    looked_at_.add();
     if ((at.node & kPoint) != 0) {
       if (!beside(fixed_of(at.node), 0) && visit(vertices_[at.node & ~kPoint])) return true;
       continue;

@@ -45,7 +45,18 @@ const Vertex<D>* Features<sac::Scope, D>::companion(const Vertex<D>& v) const {
 
 template <int D>
 void Features<sac::Scope, D>::changed(Vertex<D>& v) noexcept {
-  if (v.locator != nullptr) engine_.invalidate(engine_.call(v.locator));
+  if (v.locator != nullptr) {
+    engine_.invalidate(engine_.call(v.locator));
+  } else if (listener_ != nullptr) {
+    listener_->level_changed(v);
+  }
+}
+
+template <int D>
+void Features<sac::Scope, D>::require_apart() const {
+  if (hidden_.empty()) return;
+  const Vertex<D>& v = pool_[hidden_.begin()->second];
+  refuse_(v, *tree_.obstacle(v.p));
 }
 
 // --- What is there ---------------------------------------------------------------------------

@@ -64,6 +64,8 @@ class PointListener {
  public:
   virtual void point_came(const Vertex<D>& v) noexcept = 0;
   virtual void point_went(const Vertex<D>& v) noexcept = 0;
+  /// Of a feature's point that no call has located.
+  virtual void level_changed(Vertex<D>&) noexcept {}
 
  protected:
   ~PointListener() = default;
@@ -118,6 +120,17 @@ class Features<sac::Scope, D> : public sac::Structure {
     tree_.insert_only(v);
     v.feature = true;
   }
+  /// Finds v's level after a first run in which nobody has asked for it; for several threads at
+  /// once, each with a path of its own.
+  void find_level(Vertex<D>& v, typename FeatureTree<D>::Path& path) const {
+    v.level = static_cast<std::int16_t>(tree_.crowded_level(v, path));
+  }
+  /// Whether v is a feature's point.
+  [[nodiscard]] bool has(const Vertex<D>& v) const {
+    return v.feature || splits_.find(v.self) != splits_.end();
+  }
+  /// Throws: Error(too_close) if two are in one finest cell.
+  void require_apart() const;
   /// An outside edit, with its inverse noted for a roll-back.
   void insert(Vertex<D>& v);
   void erase(Vertex<D>& v);
@@ -131,6 +144,8 @@ class Features<sac::Scope, D> : public sac::Structure {
 
   /// How much visit_points_in has looked at so far.
   [[nodiscard]] std::uint64_t looked_at() const noexcept { return tree_.looked_at(); }
+  /// While it is held several threads may visit at once, and nothing is counted.
+  void hold(bool held) noexcept { tree_.hold(held); }
 
   [[nodiscard]] std::size_t bytes() const noexcept { return tree_.bytes(); }
   void check_invariants() const override;

@@ -81,6 +81,13 @@ void VertexIndex<sac::Scope, D>::insert(sac::Scope& s, VertexRef<D> v) {
   if (s.recall<BirthEdge>(id_, kBirth, same) == nullptr) produce(s, *v);
 }
 
+// What tiles say to each other is true at the end: it is not looked whether another is there.
+template <int D>
+void VertexIndex<sac::Scope, D>::insert(sac::Scope& s, VertexRef<D> v, const Role& role) {
+  if (role.on == 0) return insert(s, v);
+  if (recall_on_segment(s, v->p, role) == nullptr) produce_on_segment(s, *v, role);
+}
+
 // A record that fails to be produced is in the log, and freed at the end of the update.
 template <int D>
 void VertexIndex<sac::Scope, D>::produce(sac::Scope& s, Vertex<D>& v) {
@@ -705,12 +712,14 @@ void VertexIndex<sac::Scope, D>::check_invariants() const {
   }
 }
 
-// What is not alive is listed to be freed.
+// What is not alive is listed to be freed. (Inputs that no call locates are never alive.)
 template <int D>
 void VertexIndex<sac::Scope, D>::check_vertex(const Vertex<D>& v) const {
   SAC_INVARIANT(tree_.find(v.p) == &v);
-  SAC_INVARIANT(v.alive == v.committed && (v.alive || !v.input));
-  SAC_INVARIANT(v.alive ? !v.changed && !v.trial : v.changed || v.queries != 0 || v.held != 0);
+  const bool waits = v.input && v.locator == nullptr;
+  SAC_INVARIANT(v.alive == v.committed && (v.alive || !v.input || waits));
+  SAC_INVARIANT(v.alive ? !v.changed && !v.trial
+                        : v.changed || v.queries != 0 || v.held != 0 || waits);
   SAC_INVARIANT(v.alive == (v.boundary || v.presence.there()));
   presences_.check_invariants(v.presence);
   if (v.presence.there()) {

@@ -196,6 +196,7 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   /// The same for a place on no segment. Requires: no feature is there.
   VertexRef<D> insert_early(sac::Scope& s, const Point<D>& p);
   void insert(sac::Scope& s, VertexRef<D> v);
+  void insert(sac::Scope& s, VertexRef<D> v, const Role& role);
   CellLoan<D> voronoi_cell(sac::Scope& s, VertexRef<D> v, double radius);
   CellLoan<D> trial(sac::Scope& s, const Point<D>& p, VertexRef<D> near, double radius);
   /// Who would be around v, a record that need not be a vertex, or be nearest to it if `radius` is

@@ -85,13 +85,12 @@ bool is_exempt(const VertexSearch<2>& vertices, const SegmentStore& segments, co
   return is_exempt(segments, on_lines(vertices, p), on_lines(vertices, q));
 }
 
-std::vector<Wedge> wedges_across(const VertexSearch<2>& vertices, const SegmentStore& segments,
-                                 const Vertex<2>& p, const Vertex<2>& q, bool any_side) {
-  const VertexOnLines on_p = on_lines(vertices, p), on_q = on_lines(vertices, q);
-  const bool both_inside = p.on_segment && q.on_segment;
+std::vector<Wedge> wedges_across(const SegmentStore& segments, const VertexOnLines& p,
+                                 const VertexOnLines& q, bool any_side) {
+  const bool both_inside = p.role.on != 0 && q.role.on != 0;
   std::vector<Wedge> found;
-  for_each_wedge(segments, on_p, on_q, [&](const Segment& s, const Segment& t, VertexHandle apex) {
-    if (any_side || both_inside || is_left(on_p, on_q, s, apex)) {
+  for_each_wedge(segments, p, q, [&](const Segment& s, const Segment& t, VertexHandle apex) {
+    if (any_side || both_inside || is_left(p, q, s, apex)) {
       found.push_back({s.self, t.self, apex});
     }
   });

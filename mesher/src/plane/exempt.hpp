@@ -40,8 +40,7 @@ struct Wedge {
   VertexHandle apex;
 };
 /// Those for the sake of which it stays; `any_side`: or a triangle on the right of p -> q.
-[[nodiscard]] std::vector<Wedge> wedges_across(const VertexSearch<2>& vertices,
-                                               const SegmentStore& segments, const Vertex<2>& p,
-                                               const Vertex<2>& q, bool any_side);
+[[nodiscard]] std::vector<Wedge> wedges_across(const SegmentStore& segments, const VertexOnLines& p,
+                                               const VertexOnLines& q, bool any_side);
 
 }  // namespace mesher::detail

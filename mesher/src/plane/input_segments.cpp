@@ -31,9 +31,10 @@ void Traced::take(Segment& s) noexcept {
 // that comes or goes in the same update it is found by one of the two, and then by its own end.
 void Traced::legs_changed(const Segment& s) noexcept {
   for (const VertexHandle end : {s.a, s.b}) {
-    if (has_sharp_neighbour(store_, s, s.other(end))) {
-      vertices_.legs_changed(vertices_.pool()[end]);
-    }
+    if (!has_sharp_neighbour(store_, s, s.other(end))) continue;
+    const Vertex<2>* v = is_given_ ? vertices_.tree().find(end == s.a ? s.place_a : s.place_b)
+                                   : &vertices_.pool()[end];
+    if (v != nullptr) vertices_.legs_changed(*v);
   }
 }
 
@@ -55,6 +56,51 @@ PieceRef Traced::erase(VertexHandle a, VertexHandle b) {
   take(s);
   return whole(s);
 }
+
+// --- In a tile -------------------------------------------------------------------------------
+
+void Traced::know(const GivenSegment& given, const Segment& s) {
+  own_.insert_or_assign(given.name, s.self);
+  if (s.self >= names_.size()) names_.resize(s.self + std::size_t{1});
+  names_[s.self] = given.name;
+  ends_.insert_or_assign(s.place_a, s.a);
+  ends_.insert_or_assign(s.place_b, s.b);
+}
+
+void Traced::forget(const Segment& s) noexcept {
+  own_.erase(names_[s.self]);
+  const auto leave = [&](const Point<2>& p, VertexHandle end) {
+    const auto it = ends_.find(p);
+    if (it == ends_.end() || it->second != end) return;  // another point has its place
+    if (!store_.visit_at(end, [](const Segment&) { return true; })) ends_.erase(it);
+  };
+  leave(s.place_a, s.a);
+  leave(s.place_b, s.b);
+}
+
+// What is known of a segment that has gone stays for a roll-back. Two points may have had one
+// place, one after the other.
+void Traced::edit(const GivenSegment& given) {
+  const Segment& s = store_.record(given.a, given.b);
+  if (given.is) {
+    know(given, s);
+    if (given.was) engine_.on_rollback([this, &s, was = *given.was] { shells_.give(s, was); });
+    shells_.give(s, *given.is);
+  }
+  if (given.was.has_value() == given.is.has_value()) return;
+  given.is ? insert(given.a, given.b) : erase(given.a, given.b);
+}
+
+void Traced::commit() noexcept {
+  if (is_given_) {
+    store_.for_each_changed([&](const Segment& s) {
+      if (!s.alive) forget(s);
+    });
+  }
+  store_.commit();
+}
+
+// --- Points ----------------------------------------------------------------------------------
 
 void Traced::point_came(const Vertex<2>& v) noexcept {
   crowding_.came(v);

@@ -113,6 +113,13 @@ class Leaves<sac::Scope> : public sac::Structure {
   void for_each_changed(Visit&& visit) const {
     for (LeafHandle h = changed_; h != 0; h = records_[h].next_changed) visit(records_[h]);
   }
+  /// The record of a piece, to be cut from outside. It is freed at the end of an update if nobody
+  /// has made it a leaf, or cut it.
+  [[nodiscard]] LeafRef claim(const Piece& piece) {
+    Leaf& leaf = records_.record(piece);
+    touch(leaf);
+    return {&leaf};
+  }
   /// Ends an update: frees the records of pieces that nobody makes leaves.
   void commit() noexcept;
 

@@ -81,16 +81,23 @@ class SegmentStoreOf {
 
   /// How much searches, and visits to the segments at a point, have looked at so far.
   [[nodiscard]] std::uint64_t looked_at() const noexcept {
-    return trees_[0].looked_at() + trees_[1].looked_at() + met_;
+    return trees_[0].looked_at() + trees_[1].looked_at() + met_.count();
+  }
+  /// While it is held several threads may search at once: nothing is counted, and the tiling stays.
+  void hold(bool held) noexcept {
+    for (auto& tree : trees_) tree.hold(held);
+    met_.hold(held);
   }
 
-  /// Calls visit(segment) for those that may have come or gone since the last commit().
+  /// Calls visit(segment) for those that have come or gone since the last commit, or that someone
+  /// has noted.
   template <class Visit>
   void for_each_changed(Visit&& visit) const {
     for (SegmentHandle h = changed_; h != 0; h = pool_[h].next_changed) {
       visit(std::as_const(pool_[h]));
     }
   }
+  void note_change(const Segment& s) noexcept { touch(pool_[s.self]); }
   /// How many have ever been among these.
   [[nodiscard]] std::uint64_t changes() const noexcept { return changes_; }
   /// Frees the records of segments that are not live.
@@ -164,7 +171,7 @@ class SegmentStoreOf {
   SegmentHandle changed_ = 0;
   std::uint64_t changes_ = 0;
   std::size_t live_ = 0;
-  mutable std::uint64_t met_ = 0;  // at points
+  mutable Tally met_;  // at points
 };
 using SegmentStore = SegmentStoreOf<2>;
 
@@ -175,7 +182,7 @@ bool SegmentStoreOf<D>::visit_at(VertexHandle end, Visit&& visit) const {
   if (it == at_.end()) return false;
   for (SegmentHandle h = it->second; h != 0;) {
     Segment& s = pool_[h];
-    ++met_;
+    met_.add();
     h = link_at(s, end);
     if constexpr (std::is_void_v<decltype(visit(s))>) {
       visit(s);
@@ -225,9 +232,10 @@ bool SegmentStoreOf<D>::visit_tiles(const Point<D>& p, const Point<D>& q, double
                                     Search&& search, Visit& visit) noexcept {
   std::array<TileHandle, 16> needless;
   std::size_t count = 0;
+  const std::size_t most = met_.is_held() ? 0 : needless.size();
   const bool found = search([&](TileHandle t) {
     if (visit(pool_[tiles_[t].segment])) return true;
-    if (count < needless.size() && is_needless(tiles_[t], p, q, slack)) needless[count++] = t;
+    if (count < most && is_needless(tiles_[t], p, q, slack)) needless[count++] = t;
     return false;
   });
   try {

@@ -61,16 +61,22 @@ PieceSplit split_place(const PieceRef& ref, const Zones& zones) {
 namespace {
 
 template <class S>
-PieceSplit place_now(const PieceRef& piece, const VertexPool<2>& pool, SegmentStore& segments,
-                     const Features<S>& points, ApexReaches& reaches, LegFans& fans) {
-  if (!looks_at_zones(piece.piece.kind)) return split_place(piece, {});
+Zones zones_now(const Segment& s, const VertexPool<2>& pool, SegmentStore& segments,
+                const Features<S>& points, ApexReaches& reaches, LegFans& fans) {
   const auto zone_at = [&](VertexHandle end) {
-    const LongestBeside others = fans.longest_beside(segments, *piece.segment, end);
-    return zone(*piece.segment, others, [&] {
+    const LongestBeside others = fans.longest_beside(segments, s, end);
+    return zone(s, others, [&] {
       return reaches.of(pool[end], [&] { return apex_reach(segments, points, pool[end]); });
     });
   };
-  return split_place(piece, {zone_at(piece.segment->a), zone_at(piece.segment->b)});
+  return {zone_at(s.a), zone_at(s.b)};
+}
+
+template <class S>
+PieceSplit place_now(const PieceRef& piece, const VertexPool<2>& pool, SegmentStore& segments,
+                     const Features<S>& points, ApexReaches& reaches, LegFans& fans) {
+  if (!looks_at_zones(piece.piece.kind)) return split_place(piece, {});
+  return split_place(piece, zones_now(*piece.segment, pool, segments, points, reaches, fans));
 }
 
 }  // namespace
@@ -99,7 +105,12 @@ PieceSplit Shells<sac::PlainScope>::place(sac::PlainScope&, const PieceRef& piec
 
 using TracedShells = Shells<sac::Scope>;
 
+Zones TracedShells::zones(const Segment& s) {
+  return zones_now(s, pool_, segments_, points_, reaches_, fans_);
+}
+
 PieceSplit TracedShells::answer(const PieceRef& piece) {
+  if (!given_.empty()) return split_place(piece, given_[piece.piece.segment]);
   return place_now(piece, pool_, segments_, points_, reaches_, fans_);
 }
 
@@ -135,7 +146,14 @@ bool TracedShells::unchanged(sac::Call&, sac::Edge& edge) {
 
 // --- Edits -----------------------------------------------------------------------------------
 
+void TracedShells::give(const Segment& s, const Zones& zones) {
+  if (s.self >= given_.size()) given_.resize(s.self + std::size_t{1});
+  given_[s.self] = zones;
+  doubt(s);
+}
+
 void TracedShells::doubt(const Segment& s) noexcept {
+  segments_.note_change(s);
   for (sac::Handle h = s.place_observers; h != 0; h = at(h).next) {
     engine_.doubt(engine_.call(at(h).call));
   }
@@ -188,7 +206,9 @@ void TracedShells::check_invariants() const {
     for (sac::Handle h = s.place_observers; h != 0; h = at(h).next) {
       const PlaceEdge& e = at(h);
       SAC_INVARIANT(s.alive && e.piece.segment == &s && !engine_.call(e.call).dead());
-      SAC_INVARIANT(e.seen == split_place(e.piece, {zone_at(s, s.a), zone_at(s, s.b)}));
+      SAC_INVARIANT(!given_.empty() ||
+                    e.seen == split_place(e.piece, {zone_at(s, s.a), zone_at(s, s.b)}));
+      SAC_INVARIANT(given_.empty() || e.seen == split_place(e.piece, given_[s.self]));
     }
   });
 }

@@ -17,10 +17,13 @@
 // there.
 //
 //   place(s, piece)   (observation of the zones, where they matter)
+//
+// In a tile, which does not have all features, zones are given from outside.
 #pragma once
 
 #include <limits>
 #include <unordered_map>
+#include <vector>
 
 #include "geometry/box.hpp"
 #include "index/features.hpp"
@@ -39,6 +42,7 @@ struct PieceSplit {
 /// The zones at a segment's ends.
 struct Zones {
   double a = 0, b = 0;
+  friend bool operator==(const Zones&, const Zones&) = default;
 };
 
 /// How a piece is split, given the zones. Only some kinds look at them: looks_at_zones(kind).
@@ -116,7 +120,11 @@ class Shells<sac::Scope> : public sac::Structure {
         id_(engine.add_structure(*this)) {}
 
   [[nodiscard]] PieceSplit place(sac::Scope& s, const PieceRef& piece);
+  /// Of now. Where they may have changed, the store says that the segment has.
+  [[nodiscard]] Zones zones(const Segment& s);
 
+  /// An outside edit: from here on zones are as they are given.
+  void give(const Segment& s, const Zones& zones);
   /// Outside edits: a feature on pq has come or gone; t, at both of its ends.
   void feature_changed(const Point<2>& p, const Point<2>& q) noexcept;
   void segment_changed(const Segment& t) noexcept;
@@ -152,6 +160,7 @@ class Shells<sac::Scope> : public sac::Structure {
   const Features<sac::Scope>& points_;
   ApexReaches reaches_;
   LegFans fans_;
+  std::vector<Zones> given_;  // by segment; empty: they are found
   std::uint8_t id_;
 };
 

@@ -72,11 +72,11 @@ struct Filled {
 /// its bucket. (It is inserted for a length l that is at most rho times shorter than these, and is
 /// rho l or more from all others.)
 inline constexpr double kNearest = 1.0 / 3;
-
 /// The vertex at `point`, which fills a gap ball of v. In a tile nothing, if that is not possible:
 /// it may be otherwise when other tiles have said what they have. Nor if others are too near, as
 /// are two versions of one vertex, in two tiles: to refine the mesh down to their distance would
-/// take long.
+/// take long. (Beside segments others may be as near in the end: leaves that are cut are shorter
+/// than these lengths at small angles. When all else is agreed on it is tried again.)
 template <class S, int D>
 std::optional<VertexRef<D>> fill_at(S& s, World<S, D>& w, CellOf<D>& gaps, const Vertex<D>& v,
                                     int b, const typename InsertionRule<D>::NewPoint& point) {
@@ -86,13 +86,15 @@ std::optional<VertexRef<D>> fill_at(S& s, World<S, D>& w, CellOf<D>& gaps, const
     return x;
   };
   if (!w.is_part()) return fill();
+  double nearest = kNearest * w.buckets().shortest(b);
+  if constexpr (S::kTraced) nearest *= w.border->nearness();
+  const bool is_near = point.nearest2 < nearest * nearest;
   try {
-    const double nearest = kNearest * w.buckets().shortest(b);
-    if (point.nearest2 < nearest * nearest) w.fail_useless(v, v);
+    if (is_near) w.fail_useless(v, v);
     return fill();
   } catch (const Error& error) {
     if constexpr (S::kTraced) {
-      w.border->fault(s, error);
+      w.border->fault(s, error, is_near);
     } else {
       w.halo->fault(error);
     }

@@ -40,9 +40,6 @@ struct PlainOutput {
 };
 struct TracedOutput {};  // it is the triangulation that is kept, beyond space the stars
 
-/// Of all agendas: many buckets, three phases, a colour for each parity of coordinates.
-inline constexpr sac::KeyWidths kKeyWidths{.bucket = 26, .phase = 2, .colour = 4};
-
 template <class S, int D>
 struct PointWorld {
   using Agenda = typename S::AgendaType;
@@ -64,6 +61,7 @@ struct PointWorld {
   std::vector<Agenda*> parts;       // of a tile: `steiner` by buckets, from the first on
   HaloBorder<D>* halo = nullptr;    // of a static run for a tile; null: this is all
   const Names* names = nullptr;     // for messages; null: features have none
+  bool locates = true;              // false: segments are split, and nothing else is done
   std::conditional_t<S::kTraced, TracedOutput, PlainOutput<D>> plain;
   std::array<std::chrono::steady_clock::time_point, 4> marks{};
 

@@ -54,7 +54,7 @@ void insert_on_feature(S& s, AnyWorld& w, const Place& place, const Role& role) 
   const auto v = w.vertices.insert_early(s, place, role);
   w.require_room(s);
   w.features.insert(s, v);
-  w.quadtree.template post<locate>(s, locate_key(w.box.fixed(v->p)), v);
+  if (w.locates) w.quadtree.template post<locate>(s, locate_key(w.box.fixed(v->p)), v);
 }
 
 // if sigma is crowded, or long for the lattice beside it: split it where the shells say, enqueue

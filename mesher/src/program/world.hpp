@@ -57,7 +57,7 @@ struct World<S, 2> : PointWorld<S, 2> {
   World(const Options<2>& options, const MeshBox<2>& mesh_box, Host& host,
         TileBorder<2>* tile_border = nullptr)
       : Base(options, mesh_box, host, tile_border),
-        segments(box, vertices, features, host),
+        segments(make_segments(*this, host)),
         leaves(vertices, segments.pool(), host),
         plans(box, limits, host),
         surroundings(box, limits, Obstacles<S, 2>(features), host),
@@ -82,8 +82,15 @@ struct World<S, 2> : PointWorld<S, 2> {
   bool post_cuts(S& s, const std::vector<LeafRef>& leaves, int b);
   /// Whether a poor triangle on the left of p -> q, its shortest edge, stays.
   [[nodiscard]] bool is_exempt(const Vertex<2>& p, const Vertex<2>& q) const {
+    if constexpr (S::kTraced) {
+      if (this->border != nullptr) [[unlikely]] {
+        return detail::is_exempt(segments.store(), on_lines_in_tile(p), on_lines_in_tile(q));
+      }
+    }
     return detail::is_exempt(vertices, segments.store(), p, q);
   }
+  /// In a tile: a leaf cannot be cut, or not yet.
+  void refuse_cut(S& s, const Error& error);
   /// Throws: Error(too_close), with the ids of the piece's segment and of what crowds it.
   [[noreturn]] void fail_too_short(const PieceRef& piece);
   /// Throws: Error(too_close), with the ids of the features that v and x are on.
@@ -93,6 +100,19 @@ struct World<S, 2> : PointWorld<S, 2> {
   [[noreturn]] void fail_useless(const Vertex<2>& v, const Vertex<2>& x);
   /// Throws: Error(too_close), with the ids of the features nearest to p, within `radius` or not.
   [[noreturn]] void fail_near(const Point<2>& p, double radius, const std::string& why);
+
+ private:
+  static auto make_segments(Base& w, sac::Engine& engine) {
+    return InputSegments<sac::Scope>(w.box, w.vertices, w.features, engine,
+                                     w.border != nullptr ? w.border->ends() : nullptr);
+  }
+  static auto make_segments(Base& w, sac::PlainScope& s) {
+    return InputSegments<sac::PlainScope>(w.box, w.vertices, w.features, s);
+  }
+  [[nodiscard]] VertexOnLines on_lines_in_tile(const Vertex<2>& v) const {
+    if (v.on_segment || v.boundary) return {v.p, vertices.role(v), 0};
+    return {v.p, {}, segments.end_at(v.p)};
+  }
 };
 
 /// Splits segments and fills what must not be large, or is near others.

@@ -112,9 +112,19 @@ void PointWorld<S, D>::post_complete(S& s, VertexRef<D> v, int b) {
 template <class S>
 bool World<S, 2>::post_cuts(S& s, const std::vector<LeafRef>& found, int b) {
   for (const LeafRef leaf : found) {
-    this->steiner.template post<cut>(s, cut_key(box.fixed(leaf->middle()), b), leaf, b);
+    const sac::Key key = cut_key(box.fixed(leaf->middle()), b);
+    this->steiner_at(b).template post<cut>(s, key, leaf, b);
+    if constexpr (S::kTraced) {
+      if (this->border != nullptr) [[unlikely]]
+        this->border->request_cut(s, leaf->piece, b, key);
+    }
   }
   return !found.empty();
+}
+
+template <class S>
+void World<S, 2>::refuse_cut(S& s, const Error& error) {
+  if constexpr (S::kTraced) this->border->fault(s, error);
 }
 
 template <class S, int D>

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "geometry/grid.hpp"
+#include "records/tally.hpp"
 #include "sac/check.hpp"
 
 namespace mesher::detail {
@@ -156,7 +157,9 @@ class ReachTree {
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   /// Blocks and items that searches have looked at so far.
-  [[nodiscard]] std::uint64_t looked_at() const noexcept { return looked_at_; }
+  [[nodiscard]] std::uint64_t looked_at() const noexcept { return looked_at_.count(); }
+  /// While it is held several threads may search at once, and nothing is counted.
+  void hold(bool held) noexcept { looked_at_.hold(held); }
   [[nodiscard]] std::size_t bytes() const noexcept {
     return nodes_.capacity() * sizeof(Node) + entries_.capacity() * sizeof(Entry);
   }
@@ -256,7 +259,7 @@ class ReachTree {
   Link free_nodes_ = 0;
   Link free_entries_ = 0;
   std::size_t size_ = 0;
-  mutable std::uint64_t looked_at_ = 0;
+  mutable Tally looked_at_;
 };
 
 // --- Searches --------------------------------------------------------------------------------
@@ -266,7 +269,7 @@ template <class Take, class Visit>
 bool ReachTree<Item, D>::visit_list(Link list, Take& take, Visit& visit) const {
   for (Link e = list & ~kList; e != 0; e = entries_[e].next) {
     const Entry& entry = entries_[e];
-    ++looked_at_;
+    looked_at_.add();
     if (!take(entry.place, double{entry.reach})) continue;
     if constexpr (std::is_void_v<decltype(visit(entry.item))>) {
       visit(entry.item);
@@ -336,7 +339,7 @@ template <class Item, int D>
 template <class Visit>
 void ReachTree<Item, D>::visit_children(Link link, Visit&& visit) const {
   const Node& n = nodes_[link];
-  ++looked_at_;
+  looked_at_.add();
   const double side = unit_ * static_cast<double>(std::uint64_t{1} << (kLevels - 1 - n.level));
   for (int c = 0; c < kChildren; ++c) {
     if (n.child[c] == 0) continue;

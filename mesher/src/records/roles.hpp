@@ -16,7 +16,7 @@ namespace mesher::detail {
 struct Role {
   Label label;
   SegmentHandle on = 0;
-  friend bool operator==(const Role&, const Role&) = default;
+  friend auto operator<=>(const Role&, const Role&) = default;
 };
 
 /// Roles by the handles of vertices.

@@ -86,7 +86,7 @@ struct Piece {
   Label lo, hi;
   SegmentHandle segment = 0;
   PieceKind kind = PieceKind::whole;
-  friend bool operator==(const Piece&, const Piece&) = default;
+  friend auto operator<=>(const Piece&, const Piece&) = default;
   friend std::uint64_t hash_value(const Piece& p) noexcept {
     std::uint64_t h = sac::mix(p.segment + (static_cast<std::uint64_t>(p.kind) << 32));
     for (const Label& l : {p.lo, p.hi}) h = sac::mix(h + l.bits());

@@ -10,21 +10,46 @@
 namespace mesher::detail {
 
 /// As Locate, of a point whose deepest crowded level is known: all tiles' points crowd it.
+template <int D>
+void locate_at(sac::Scope& s, VertexRef<D> p, int level, const Role& role) {
+  auto& w = s.template environment<World<sac::Scope, D>>();
+  w.vertices.insert(s, p, role);
+  if (level >= kCoarser) {
+    const Cell<D> c = MeshBox<D>::cell(w.box.fixed(p->p), level - kCoarser);
+    w.quadtree.template post<split>(s, split_key(c), c);
+  }
+  w.post_nearest(s, p, level + 1);
+  w.post_star(s, p);
+}
+
 struct LocateKnown {
   static constexpr std::string_view kName = "locate";
   template <int D>
   void operator()(sac::Scope& s, VertexRef<D> p, int level) const {
-    auto& w = s.template environment<World<sac::Scope, D>>();
-    w.vertices.insert(s, p);
-    if (level >= kCoarser) {
-      const Cell<D> c = MeshBox<D>::cell(w.box.fixed(p->p), level - kCoarser);
-      w.quadtree.template post<split>(s, split_key(c), c);
-    }
-    w.post_nearest(s, p, level + 1);
-    w.post_star(s, p);
+    locate_at(s, p, level, Role());
   }
 };
 inline constexpr LocateKnown locate_known{};
+
+/// A place on a segment, at a distance from one of its ends.
+struct LocateOnSegment {
+  static constexpr std::string_view kName = "locate_on_segment";
+  template <int D>
+  void operator()(sac::Scope& s, VertexRef<D> p, int level, std::uint32_t segment, double distance,
+                  bool from_b) const {
+    locate_at(s, p, level, Role{Label(distance, from_b), segment});
+  }
+};
+inline constexpr LocateOnSegment locate_on_segment{};
+
+/// A piece is a leaf before anything is refined.
+struct BeginLeaf {
+  static constexpr std::string_view kName = "leaf";
+  void operator()(sac::Scope& s, PieceRef piece) const {
+    s.environment<World<sac::Scope, 2>>().leaves.begin(s, piece.piece);
+  }
+};
+inline constexpr BeginLeaf begin_leaf{};
 
 // Calls with the turn of a call of another tile. Questions come before births, as that call looks
 // before it inserts: their names say so, since calls of one turn run in the order of names.
@@ -60,13 +85,30 @@ struct Arrive {
 };
 inline constexpr Arrive arrive{};
 
+/// The same on a segment: another tile has cut it, or it was split before anything is refined.
+struct ArriveOnSegment {
+  static constexpr std::string_view kName = "arrive_on_segment";
+  template <int D>
+  void operator()(sac::Scope& s, VertexRef<D> v, std::uint32_t segment, double distance,
+                  bool from_b, std::uint32_t stage, std::uint32_t rank, std::uint64_t order,
+                  std::uint32_t from) const {
+    static_cast<void>(stage), static_cast<void>(rank);
+    static_cast<void>(order), static_cast<void>(from);
+    auto& w = s.template environment<World<sac::Scope, D>>();
+    w.vertices.insert(s, v, Role{Label(distance, from_b), segment});
+  }
+};
+inline constexpr ArriveOnSegment arrive_on_segment{};
+
 // --- The parts of a first run
 
 template <int D>
 struct RunQuadtree {
   static constexpr std::string_view kName = "quadtree";
   void operator()(sac::Scope& s) const {
-    s.template environment<World<sac::Scope, D>>().quadtree.drain(s);
+    auto& w = s.template environment<World<sac::Scope, D>>();
+    if constexpr (D == 2) w.splits.drain(s);
+    w.quadtree.drain(s);
   }
 };
 template <int D>

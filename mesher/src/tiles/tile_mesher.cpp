@@ -10,13 +10,37 @@
 
 namespace mesher::detail {
 
+LineOrders LineOrders::inverse() const {
+  LineOrders all;
+  for (auto it = segments.rbegin(); it != segments.rend(); ++it) {
+    all.segments.push_back({it->name, it->a, it->b, it->is, it->was});
+  }
+  for (auto it = leaves.rbegin(); it != leaves.rend(); ++it) {
+    all.leaves.push_back({it->piece, !it->begins});
+  }
+  return all;
+}
+
+namespace {
+
+template <int D>
+std::unique_ptr<TileBorder<D>> make_border(sac::Engine& engine, const Territories<D>& all,
+                                           std::size_t self, double side,
+                                           const VertexPool<D>* ends) {
+  auto border = std::make_unique<TileBorder<D>>(engine, all, self, side);
+  border->set_ends(ends);
+  return border;
+}
+
+}  // namespace
+
 template <int D>
 TileMesher<D>::TileMesher(const Options<D>& options, const MeshBox<D>& box,
-                          const Territories<D>& all, std::size_t self)
+                          const Territories<D>& all, std::size_t self, const VertexPool<D>* ends)
     : all_(all),
       self_(self),
       engine_(std::make_unique<sac::Engine>()),
-      border_(std::make_unique<TileBorder<D>>(*engine_, all, self, box.side)),
+      border_(make_border<D>(*engine_, all, self, box.side, ends)),
       world_(std::make_unique<World<sac::Scope, D>>(options, box, *engine_, border_.get())),
       asked_(all.size()),
       askers_(all.size()) {
@@ -43,13 +67,18 @@ sac::Agenda& TileMesher<D>::agenda(const Turn<D>& turn) noexcept {
 
 template <int D>
 void TileMesher<D>::edit(const std::vector<Edit>& edits) {
-  const auto order = [&](const Point<D>& p, int level, bool begins) {
-    orders_.push_back({Order::Kind::locate, begins, p, {}, level, 0, 0});
+  const auto order = [&](const Point<D>& p, const Located& located, bool begins) {
+    orders_.push_back({Order::Kind::locate, begins, p, {}, located.level, 0, 0, located.role});
   };
   for (const Edit& e : edits) {
     if (e.was) order(e.p, *e.was, false);
     if (e.is) order(e.p, *e.is, true);
   }
+}
+
+template <int D>
+void TileMesher<D>::edit_lines(std::shared_ptr<const LineOrders> lines) {
+  lines_.push_back(std::move(lines));
 }
 
 template <int D>
@@ -70,6 +99,10 @@ void TileMesher<D>::receive(std::size_t from, const std::vector<Message<D>>& mes
         break;
       case Kind::depart:
         departed(who, m.birth);
+        break;
+      case Kind::cut:
+      case Kind::uncut:
+        note_cut(who, m.cut, m.begins());
         break;
     }
   }
@@ -95,19 +128,85 @@ void TileMesher<D>::end(std::uint32_t from, const Look<D>& look) {
 template <int D>
 void TileMesher<D>::arrived(std::uint32_t from, const Birth<D>& birth) {
   ++(birth.bucket < 0 ? counts_.seen : counts_.born);
-  from_.emplace(birth.p, From{birth.turn, from});
-  orders_.push_back({Order::Kind::arrive, true, birth.p, birth.turn, birth.bucket, from, 0});
+  from_.emplace(birth.p, From{{birth.turn, birth.role}, from});
+  orders_.push_back(
+      {Order::Kind::arrive, true, birth.p, birth.turn, birth.bucket, from, 0, birth.role});
 }
 
 template <int D>
 void TileMesher<D>::departed(std::uint32_t from, const Birth<D>& birth) {
   const auto [first, last] = from_.equal_range(birth.p);
-  const auto it = std::find_if(first, last, [&](const auto& f) {
-    return f.second.turn == birth.turn && f.second.tile == from;
-  });
+  const From same{{birth.turn, birth.role}, from};
+  const auto it = std::find_if(first, last, [&](const auto& f) { return f.second == same; });
   SAC_ENSURES(it != last);
   from_.erase(it);
-  orders_.push_back({Order::Kind::arrive, false, birth.p, birth.turn, birth.bucket, from, 0});
+  orders_.push_back(
+      {Order::Kind::arrive, false, birth.p, birth.turn, birth.bucket, from, 0, birth.role});
+}
+
+template <int D>
+void TileMesher<D>::note_cut(std::uint32_t from, const CutOfLeaf<D>& cut, bool begins) {
+  auto& cuts = askers_[from].cuts;
+  const bool is_new = begins ? cuts.insert(cut).second : cuts.erase(cut) != 0;
+  SAC_ENSURES(is_new);
+  static_cast<void>(is_new);
+  counts_.cuts += begins ? 1 : 0;
+  orders_.push_back({Order::Kind::cut, begins, {}, cut.turn, cut.bucket, from, 0, {}, cut.piece});
+}
+
+// Of a segment, as all tiles call it, and as this one does.
+template <int D>
+Role TileMesher<D>::named(Role role) const noexcept {
+  if constexpr (D == 2) {
+    if (role.on != 0) role.on = world_->segments.name(role.on);
+  }
+  return role;
+}
+template <int D>
+Role TileMesher<D>::own(Role role) const {
+  if constexpr (D == 2) {
+    if (role.on != 0) role.on = world_->segments.own(role.on);
+  }
+  return role;
+}
+template <int D>
+Piece TileMesher<D>::named(Piece piece) const noexcept {
+  if constexpr (D == 2) piece.segment = world_->segments.name(piece.segment);
+  return piece;
+}
+template <int D>
+Piece TileMesher<D>::own(Piece piece) const {
+  if constexpr (D == 2) piece.segment = world_->segments.own(piece.segment);
+  return piece;
+}
+
+template <int D>
+void TileMesher<D>::carry_out_lines(const LineOrders& lines) {
+  if constexpr (D == 2) {
+    for (const GivenSegment& segment : lines.segments) world_->segments.edit(segment);
+    for (const auto& leaf : lines.leaves) {
+      const PieceRef piece = world_->segments.ref(own(leaf.piece));
+      if (leaf.begins) {
+        world_->splits.template post_from_outside<begin_leaf>(split_segment_key(world_->box, piece),
+                                                              piece);
+      } else {
+        world_->splits.template retract_from_outside<begin_leaf>(piece);
+      }
+    }
+  }
+}
+
+template <int D>
+void TileMesher<D>::carry_out_cut(const Order& order) {
+  if constexpr (D == 2) {
+    const LeafRef leaf = world_->leaves.claim(own(order.piece));
+    sac::Agenda& at = agenda(order.turn);
+    if (order.begins) {
+      at.template post_from_outside<cut>(order.turn.key(kKeyWidths), leaf, order.number);
+    } else {
+      at.template retract_from_outside<cut>(leaf, order.number);
+    }
+  }
 }
 
 template <int D>
@@ -115,8 +214,18 @@ void TileMesher<D>::locate(const Order& order, VertexRef<D> v) {
   Vertex<D>* const record = v.v;
   engine_->begin_edit();
   engine_->on_rollback([record, was = bool{v->input}] { record->input = was; });
-  v->input = order.begins;
-  if (order.begins) {
+  const Role role = own(order.role);
+  v->input = order.begins && role.on == 0;
+  if (role.on != 0) {
+    const auto [distance, from_b] = std::pair(role.label.distance(), role.label.from_b());
+    if (order.begins) {
+      world_->quadtree.template post_from_outside<locate_on_segment>(
+          locate_key(world_->box.fixed(v->p)), v, order.number, role.on, distance, from_b);
+    } else {
+      world_->quadtree.template retract_from_outside<locate_on_segment>(v, order.number, role.on,
+                                                                        distance, from_b);
+    }
+  } else if (order.begins) {
     world_->quadtree.template post_from_outside<locate_known>(locate_key(world_->box.fixed(v->p)),
                                                               v, order.number);
   } else {
@@ -126,6 +235,7 @@ void TileMesher<D>::locate(const Order& order, VertexRef<D> v) {
 
 template <int D>
 void TileMesher<D>::carry_out(const Order& order) {
+  if (order.kind == Order::Kind::cut) return carry_out_cut(order);
   const VertexRef<D> v = world_->vertices.claim(order.p);
   if (order.kind == Order::Kind::locate) return locate(order, v);
   const Turn<D>& t = order.turn;
@@ -133,7 +243,17 @@ void TileMesher<D>::carry_out(const Order& order) {
   if (t.stage == Stage::steiner && key.phase == 1) return carry_out_in_complete(order, key.bucket);
   sac::Agenda& at = agenda(t);
   const auto stage = static_cast<std::uint32_t>(t.stage);
-  if (order.kind == Order::Kind::ask) {
+  if (order.role.on != 0) {
+    const Role role = own(order.role);
+    const auto [distance, from_b] = std::pair(role.label.distance(), role.label.from_b());
+    if (order.begins) {
+      at.template post_from_outside<arrive_on_segment>(key, v, role.on, distance, from_b, stage,
+                                                       t.rank, t.order, order.name);
+    } else {
+      at.template retract_from_outside<arrive_on_segment>(v, role.on, distance, from_b, stage,
+                                                          t.rank, t.order, order.name);
+    }
+  } else if (order.kind == Order::Kind::ask) {
     order.begins ? at.template post_from_outside<across>(key, v, order.radius, order.name)
                  : at.template retract_from_outside<across>(v, order.radius, order.name);
   } else {
@@ -177,6 +297,7 @@ void TileMesher<D>::carry_out_in_complete(const Order& order, int bucket) {
 template <int D>
 void TileMesher<D>::post_orders() {
   engine_->edit_together([&] {
+    for (const auto& lines : lines_) carry_out_lines(*lines);
     for (const Order& order : orders_) carry_out(order);
   });
 }
@@ -193,6 +314,7 @@ void TileMesher<D>::watch(std::function<bool(std::uint64_t)> report) {
 template <int D>
 void TileMesher<D>::run_quadtree() {
   post_orders();
+  lines_.clear();
   orders_.clear();
   counts_.run += engine_->template run<detail::run_quadtree<D>>().executed;
 }
@@ -225,7 +347,16 @@ template <int D>
 void TileMesher<D>::propagate() {
   post_orders();
   counts_.again += engine_->propagate().executed;
+  lines_.clear();
   orders_.clear();
+  tries_nearer_ = false;
+}
+
+template <int D>
+bool TileMesher<D>::try_nearer() {
+  if (!border_->has_faults()) return false;
+  engine_->edit_together([&] { tries_nearer_ = border_->try_nearer(); });
+  return tries_nearer_;
 }
 
 // --- What is new -----------------------------------------------------------------------------
@@ -241,14 +372,21 @@ std::vector<Message<D>> TileMesher<D>::collect(Changes* changes) {
   }
   collect_looks(out, doubtful);
   collect_births(out);
+  collect_cuts(out);
   collect_answers(doubtful);
   tell(doubtful, out);
   if (changes != nullptr) collect_changes(log, *changes);
   count_own(log.touched);
   world_->vertices.keep_reading(log.touched);
+  if constexpr (D == 2) world_->leaves.commit();
   world_->vertices.commit();
   border_->forget_scripts();
   return out;
+}
+
+template <int D>
+void TileMesher<D>::commit_lines() noexcept {
+  if constexpr (D == 2) world_->segments.commit();
 }
 
 // Who is found for a tile, or bounds what it is asked for.
@@ -303,15 +441,41 @@ void TileMesher<D>::collect_births(std::vector<Message<D>>& out) {
   }
 }
 
-// When v was born, unless that was in the asking tile, which knows.
+// All tiles have all leaves: whoever calls for a cut says so to all.
 template <int D>
-std::optional<Turn<D>> TileMesher<D>::birth_for(std::uint32_t asker, const Vertex<D>& v) const {
+void TileMesher<D>::collect_cuts(std::vector<Message<D>>& out) {
+  using Kind = typename Message<D>::Kind;
+  std::map<CutOfLeaf<D>, int> changed;
+  for (auto e : border_->take_cuts()) {
+    e.cut.piece = named(e.cut.piece);
+    changed[e.cut] += e.sign;
+  }
+  for (const auto& [cut, sum] : changed) {
+    if (sum == 0) continue;
+    std::uint32_t& count = cuts_[cut];
+    const bool was = count != 0;
+    count = static_cast<std::uint32_t>(static_cast<int>(count) + sum);
+    const bool is = count != 0;
+    if (!is) cuts_.erase(cut);
+    if (was == is) continue;
+    for (std::uint32_t t = 0; t < askers_.size(); ++t) {
+      if (t != self_) out.push_back({is ? Kind::cut : Kind::uncut, t, {}, {}, cut});
+    }
+  }
+}
+
+// When and as what v was born, unless that was in the asking tile, which knows.
+template <int D>
+auto TileMesher<D>::birth_for(std::uint32_t asker, const Vertex<D>& v) const
+    -> std::optional<Born> {
   if (!v.alive || v.boundary) return std::nullopt;
-  const Turn<D> turn = border_->turn_of(engine_->call_at(v.presence.birth()));
+  const Born born{border_->turn_of(engine_->call_at(v.presence.birth())),
+                  named(world_->vertices.role(v))};
   const auto [first, last] = from_.equal_range(v.p);
-  const bool known = std::any_of(
-      first, last, [&](const auto& f) { return f.second.tile == asker && f.second.turn == turn; });
-  return known ? std::nullopt : std::optional(turn);
+  const bool known = std::any_of(first, last, [&](const auto& f) {
+    return f.second == From{born, asker};
+  });
+  return known ? std::nullopt : std::optional(born);
 }
 
 template <int D>
@@ -344,13 +508,16 @@ void TileMesher<D>::tell(Doubtful& doubtful, std::vector<Message<D>>& out) {
               [&](VertexHandle a, VertexHandle b) { return pool[a].p < pool[b].p; });
     some.erase(std::unique(some.begin(), some.end()), some.end());
     for (const VertexHandle h : some) {
-      std::optional<Turn<D>>& told = askers_[t].told.at(h);
+      std::optional<Born>& told = askers_[t].told.at(h);
       const auto to = static_cast<std::uint32_t>(t);
-      const std::optional<Turn<D>> turn = birth_for(to, pool[h]);
-      if (turn != told) {
-        if (told) out.push_back({Kind::depart, to, {}, {pool[h].p, -1, *told}});
-        if (turn) out.push_back({Kind::arrive, to, {}, {pool[h].p, -1, *turn}});
-        told = turn;
+      const std::optional<Born> born = birth_for(to, pool[h]);
+      const auto say = [&](Kind kind, const Born& what) {
+        out.push_back({kind, to, {}, {pool[h].p, -1, what.turn, what.role}, {}});
+      };
+      if (born != told) {
+        if (told) say(Kind::depart, *told);
+        if (born) say(Kind::arrive, *born);
+        told = born;
       }
       if (!pool[h].alive) forget_told(t, h);
     }
@@ -391,6 +558,13 @@ void TileMesher<D>::collect_changes(const Log& log, Changes& changes) const {
     if (v.committed) changes.vertices.push_back({v.p, v.committed_kind, false});
     if (v.alive) changes.vertices.push_back({v.p, v.kind(), true});
   }
+  if constexpr (D == 2) {
+    world_->leaves.for_each_changed([&](const Leaf& leaf) {
+      const bool is = world_->leaves.is_leaf(leaf);
+      if (is == leaf.committed || !border_->owns(leaf.lo)) return;
+      changes.leaves.push_back({named(leaf.piece), leaf.lo, leaf.hi, is});
+    });
+  }
   const auto add = [&](const std::vector<Simplex>& simplices, auto& all) {
     for (const Simplex& t : simplices) {
       if (!outputs(t)) continue;
@@ -406,10 +580,10 @@ void TileMesher<D>::collect_changes(const Log& log, Changes& changes) const {
 // --- Between runs ----------------------------------------------------------------------------
 
 template <int D>
-bool TileMesher<D>::has_arrived(std::size_t from, const Point<D>& p, const Turn<D>& turn) const {
+bool TileMesher<D>::has_arrived(std::size_t from, const Point<D>& p, const Born& born) const {
   const auto [first, last] = from_.equal_range(p);
-  return std::any_of(first, last,
-                     [&](const auto& f) { return f.second.tile == from && f.second.turn == turn; });
+  const From same{born, static_cast<std::uint32_t>(from)};
+  return std::any_of(first, last, [&](const auto& f) { return f.second == same; });
 }
 
 template <int D>
@@ -428,18 +602,27 @@ std::string TileMesher<D>::fault_with(const TileMesher& other) const {
     }
     for (const VertexHandle h : other.border_->answer_to(it->second)) {
       if (pool[h].boundary || !other.border_->owns(pool[h].p)) continue;
-      const auto turn = other.birth_for(static_cast<std::uint32_t>(self_), pool[h]);
-      if (turn && !has_arrived(other.self_, pool[h].p, *turn)) {
+      const auto born = other.birth_for(static_cast<std::uint32_t>(self_), pool[h]);
+      if (born && !has_arrived(other.self_, pool[h].p, *born)) {
         fault = "a vertex of tile " + std::to_string(other.self_) + " is not known to tile " +
                 std::to_string(self_);
       }
     }
   });
   border_->for_each_birth([&](const Birth<D>& birth) {
-    if (all_.owner(birth.p) == other.self_ && !other.has_arrived(self_, birth.p, birth.turn)) {
+    if (all_.owner(birth.p) == other.self_ &&
+        !other.has_arrived(self_, birth.p, {birth.turn, birth.role})) {
       fault = "a vertex that tile " + std::to_string(self_) + " has made has not arrived";
     }
   });
+  for (const auto& [cut, count] : cuts_) {
+    if (asker.cuts.contains(cut)) continue;
+    fault = "a leaf that tile " + std::to_string(self_) + " needs cut is not";
+  }
+  for (const CutOfLeaf<D>& cut : asker.cuts) {
+    if (cuts_.contains(cut)) continue;
+    fault = "a leaf is cut that tile " + std::to_string(self_) + " does not need cut";
+  }
   return fault;
 }
 
@@ -454,6 +637,10 @@ template <int D>
 void TileMesher<D>::check_invariants() const {
   engine_->check_invariants();
   world_->vertices.check_invariants();
+  if constexpr (D == 2) {
+    world_->segments.check_invariants();
+    world_->leaves.check_invariants();
+  }
 }
 
 template class TileMesher<2>;

@@ -8,12 +8,17 @@
 //   a call that looks beyond the territory asks each tile whose territory it reaches who of its
 //   vertices would be around it there, at its turn. Whoever bounds its cell among all vertices
 //   bounds that among fewer, too; so all that matter to it arrive.
+// In the plane all tiles have all segments and all leaves. Which leaf is cut, and when, is a
+// function of who asks for it: a call that does says so to all tiles, and each makes the same cut,
+// at the same turn.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -24,18 +29,36 @@
 
 namespace mesher::detail {
 
-/// From one tile to another. A question that ends, and a birth that does, are named as they began.
+/// From one tile to another. A question that ends, a birth and a cut that do, are named as they
+/// began.
 template <int D>
 struct Message {
-  enum class Kind : std::uint8_t { ask, end, arrive, depart };
+  enum class Kind : std::uint8_t { ask, end, arrive, depart, cut, uncut };
   Kind kind;
   std::uint32_t to;
-  Look<D> look;    // ask, end
-  Birth<D> birth;  // arrive, depart
+  Look<D> look{};      // ask, end
+  Birth<D> birth{};    // arrive, depart
+  CutOfLeaf<D> cut{};  // cut, uncut
 
   [[nodiscard]] const Turn<D>& turn() const noexcept {
-    return kind < Kind::arrive ? look.turn : birth.turn;
+    return kind < Kind::arrive ? look.turn : kind < Kind::cut ? birth.turn : cut.turn;
   }
+  [[nodiscard]] bool begins() const noexcept {
+    return kind == Kind::ask || kind == Kind::arrive || kind == Kind::cut;
+  }
+};
+
+/// In the plane: what all tiles are told of the segments of the whole input, and of their pieces
+/// that are leaves before anything is refined; segments as all tiles call them.
+struct LineOrders {
+  struct FirstLeaf {
+    Piece piece;
+    bool begins;
+  };
+  std::vector<GivenSegment> segments;
+  std::vector<FirstLeaf> leaves;
+  [[nodiscard]] bool is_empty() const noexcept { return segments.empty() && leaves.empty(); }
+  [[nodiscard]] LineOrders inverse() const;
 };
 
 /// What a tile has done so far.
@@ -45,20 +68,29 @@ struct TileCounts {
   std::uint64_t questions = 0;  // asked by others
   std::uint64_t seen = 0;       // vertices of others that came to be seen
   std::uint64_t born = 0;       // vertices of its own that others gave birth to
+  std::uint64_t cuts = 0;       // of leaves that others asked for
 };
 
 template <int D>
 class TileMesher {
  public:
-  /// `level`: of a point, the deepest one at which it is crowded among those of all tiles.
+  /// A point of features. `level`: the deepest one at which it is crowded among those of all tiles;
+  /// `role`: none of a point of the input.
+  struct Located {
+    Located(int l, const Role& r = {}) : level(l), role(r) {}
+    int level;
+    Role role;
+    friend bool operator==(const Located&, const Located&) = default;
+  };
   struct Edit {
     Point<D> p;
-    std::optional<int> was, is;  // nothing: it is not there
+    std::optional<Located> was, is;  // nothing: it is not there
     [[nodiscard]] Edit inverse() const { return {p, is, was}; }
   };
 
+  /// `ends`: TileBorder::set_ends; null: there are no segments.
   TileMesher(const Options<D>& options, const MeshBox<D>& box, const Territories<D>& all,
-             std::size_t self);
+             std::size_t self, const VertexPool<D>* ends = nullptr);
   TileMesher(const TileMesher&) = delete;
   TileMesher& operator=(const TileMesher&) = delete;
   ~TileMesher();
@@ -66,12 +98,20 @@ class TileMesher {
   /// Notes edits of points of the territory, and the messages of tile `from`, for the next run.
   /// What throws leaves the tile good for nothing.
   void edit(const std::vector<Edit>& edits);
+  /// Likewise, of segments; in the plane.
+  void edit_lines(std::shared_ptr<const LineOrders> lines);
   void receive(std::size_t from, const std::vector<Message<D>>& messages);
   /// Tells report(calls) of calls that have run since, some thousand times a second; if it returns
   /// false the run ends with sac::Cancelled.
   void watch(std::function<bool(std::uint64_t)> report);
   /// Whether something waits to be run.
-  [[nodiscard]] bool is_dirty() const noexcept { return !orders_.empty(); }
+  [[nodiscard]] bool is_dirty() const noexcept {
+    return !orders_.empty() || !lines_.empty() || tries_nearer_;
+  }
+  /// When all tiles agree: what would come too near to others is tried again (TileBorder). Returns
+  /// whether there is any.
+  bool try_nearer();
+  void reset_nearness() noexcept { border_->reset_nearness(); }
   [[nodiscard]] std::size_t orders() const noexcept { return orders_.size(); }
 
   /// The parts of a first run: points are located; parts 0 to parts() - 1, by buckets; stars. What
@@ -99,9 +139,18 @@ class TileMesher {
       bool came;
     };
     std::vector<Event> vertices;  // in their order
+    // Of a leaf.
+    struct LeafEvent {
+      Piece piece;
+      Point<D> lo, hi;
+      bool came;
+    };
+    std::vector<LeafEvent> leaves;  // in their order
     std::vector<std::array<Point<D>, D + 1>> simplices_come, simplices_gone;
   };
   [[nodiscard]] std::vector<Message<D>> collect(Changes* changes);
+  /// When all tiles agree: forgets segments that have gone.
+  void commit_lines() noexcept;
 
   /// Vertices of the territory, and simplices that one of them outputs.
   [[nodiscard]] std::size_t own_vertices() const noexcept { return own_vertices_; }
@@ -116,6 +165,22 @@ class TileMesher {
       if (outputs(t)) visit(t);
     });
   }
+  /// Calls visit(piece, lo, hi) for the leaves that it outputs: those that begin in the territory.
+  template <class Visit>
+  void for_each_own_leaf(Visit&& visit) const {
+    if constexpr (D == 2) {
+      world_->leaves.for_each([&](const Leaf& leaf) {
+        if (border_->owns(leaf.lo)) visit(named(leaf.piece), leaf.lo, leaf.hi);
+      });
+    }
+  }
+  /// Whether a leaf may be no edge of the mesh.
+  [[nodiscard]] bool may_lose_leaves() const noexcept {
+    if constexpr (D == 2) return world_->leaves.may_lose();
+    return false;
+  }
+  /// By what all tiles call its segment.
+  [[nodiscard]] Role named(Role role) const noexcept;
   [[nodiscard]] const World<sac::Scope, D>& world() const noexcept { return *world_; }
   [[nodiscard]] const TileBorder<D>& border() const noexcept { return *border_; }
   [[nodiscard]] const TileCounts& counts() const noexcept { return counts_; }
@@ -135,48 +200,64 @@ class TileMesher {
     Look<D> look;
   };
   struct Order {  // what is to be posted, or taken back
-    enum class Kind : std::uint8_t { locate, ask, arrive };
+    enum class Kind : std::uint8_t { locate, ask, arrive, cut };
     Kind kind;
     bool begins;
     Point<D> p;
     Turn<D> turn;
-    int number;          // locate: the level; arrive: the bucket
+    int number;          // locate: the level; arrive, cut: the bucket
     std::uint32_t name;  // ask: the question; arrive: from which tile
     double radius;
+    Role role{};    // locate, arrive
+    Piece piece{};  // cut
   };
   struct Asked {                                                    // of another tile
     std::unordered_map<Look<D>, std::uint32_t, TurnHash<D>> looks;  // how often
+  };
+  struct Born {  // as all tiles say it
+    Turn<D> turn;
+    Role role;
+    friend bool operator==(const Born&, const Born&) = default;
   };
   struct Asker {  // another tile
     std::unordered_map<Look<D>, std::uint32_t, TurnHash<D>> questions;
     // Who was found for it, and the turns of their births; nothing: it knows. What it was told it
     // knows for good: if it forgot what is hidden from it, two tiles could hide things from each
     // other by what they were about to forget.
-    std::unordered_map<VertexHandle, std::optional<Turn<D>>> told;
+    std::unordered_map<VertexHandle, std::optional<Born>> told;
+    std::set<CutOfLeaf<D>> cuts;  // that it has asked for
   };
   struct From {
-    Turn<D> turn;
+    Born born;
     std::uint32_t tile;
+    friend bool operator==(const From&, const From&) = default;
   };
 
   [[nodiscard]] sac::Agenda& agenda(const Turn<D>& turn) noexcept;
   void post_orders();
   void carry_out(const Order& order);
   void carry_out_in_complete(const Order& order, int bucket);
+  void carry_out_lines(const LineOrders& lines);
+  void carry_out_cut(const Order& order);
   void locate(const Order& order, VertexRef<D> v);
+  [[nodiscard]] Role own(Role role) const;
+  [[nodiscard]] Piece named(Piece piece) const noexcept;
+  [[nodiscard]] Piece own(Piece piece) const;
   void ask(std::uint32_t from, const Look<D>& look);
   void end(std::uint32_t from, const Look<D>& look);
   void arrived(std::uint32_t from, const Birth<D>& birth);
   void departed(std::uint32_t from, const Birth<D>& birth);
+  void note_cut(std::uint32_t from, const CutOfLeaf<D>& cut, bool begins);
   using Doubtful = std::vector<std::vector<VertexHandle>>;  // what a tile may have to be told
   void collect_looks(std::vector<Message<D>>& out, Doubtful& doubtful);
   void collect_births(std::vector<Message<D>>& out);
+  void collect_cuts(std::vector<Message<D>>& out);
   void collect_answers(Doubtful& doubtful);
   void note(std::size_t tile, VertexHandle h, Doubtful& doubtful);
   void tell(Doubtful& doubtful, std::vector<Message<D>>& out);
   void forget_told(std::size_t tile, VertexHandle h);
-  [[nodiscard]] std::optional<Turn<D>> birth_for(std::uint32_t asker, const Vertex<D>& v) const;
-  [[nodiscard]] bool has_arrived(std::size_t from, const Point<D>& p, const Turn<D>& turn) const;
+  [[nodiscard]] std::optional<Born> birth_for(std::uint32_t asker, const Vertex<D>& v) const;
+  [[nodiscard]] bool has_arrived(std::size_t from, const Point<D>& p, const Born& born) const;
   void count_own(const std::vector<VertexHandle>& touched) noexcept;
   using Log = typename VertexIndex<sac::Scope, D>::Log;
   void collect_changes(const Log& log, Changes& changes) const;
@@ -187,10 +268,13 @@ class TileMesher {
   std::unique_ptr<sac::Engine> engine_;
   std::unique_ptr<TileBorder<D>> border_;
   std::unique_ptr<World<sac::Scope, D>> world_;
+  std::vector<std::shared_ptr<const LineOrders>> lines_;
   std::vector<Order> orders_;
+  bool tries_nearer_ = false;
   std::size_t own_vertices_ = 0;
   TileCounts counts_;
   std::vector<Asked> asked_;                                      // by tile
+  std::map<CutOfLeaf<D>, std::uint32_t> cuts_;                    // how many calls ask for each
   std::vector<Asker> askers_;                                     // by tile
   std::unordered_multimap<VertexHandle, std::uint32_t> told_to_;  // whose Asker::told has a vertex
   std::unordered_map<std::uint32_t, Question> questions_;

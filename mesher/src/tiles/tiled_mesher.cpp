@@ -29,6 +29,7 @@ void pack_message(std::uint32_t from, const Message<D>& m, Packer& to) {
   if (m.kind == Kind::ask || m.kind == Kind::end) {
     to.put(m.look.p), to.put(m.look.radius);
   } else {
+    SAC_EXPECTS(m.kind < Kind::cut && m.birth.role.on == 0);  // processes have no segments
     to.put(m.birth.p), to.put(std::int32_t{m.birth.bucket});
   }
 }
@@ -59,7 +60,7 @@ std::pair<std::uint32_t, Message<D>> unpack_message(Unpacker& bytes) {
 template <int D>
 TiledMesher<D>::TiledMesher(const Options<D>& options, const MeshBox<D>& box,
                             const std::vector<Point<D>>& places, std::size_t tiles,
-                            std::size_t threads, Peers& peers)
+                            std::size_t threads, Peers& peers, const VertexPool<D>* ends)
     : options_(options),
       threads_(threads),
       peers_(peers),
@@ -76,7 +77,7 @@ TiledMesher<D>::TiledMesher(const Options<D>& options, const MeshBox<D>& box,
   }
   first_ = first_of(peers.self());
   for (std::size_t t = first_; t < first_of(peers.self() + 1); ++t) {
-    tiles_.push_back(std::make_unique<TileMesher<D>>(options, box, all_, t));
+    tiles_.push_back(std::make_unique<TileMesher<D>>(options, box, all_, t, ends));
   }
   out_.resize(tiles_.size());
   waiting_.resize(tiles_.size());
@@ -253,13 +254,23 @@ void TiledMesher<D>::exchange(const Time& last) {
   });
 }
 
+// Several processes have no segments: nothing may come so near then.
+template <int D>
+bool TiledMesher<D>::try_nearer() {
+  bool any = false;
+  if (!peers_.is_alone()) return any;
+  for (const auto& tile : tiles_) any = tile->try_nearer() || any;
+  return any;
+}
+
 // Messages that wait are sent first.
 template <int D>
 void TiledMesher<D>::settle(Changes* changes) {
+  for (const auto& tile : tiles_) tile->reset_nearness();
   while (true) {
     attempt([&] { sort_messages(); });
     const Next next = agree_on_next();
-    if (!next.first && !next.is_dirty) return;
+    if (!next.first && !next.is_dirty && !try_nearer()) return;
     if (next.first) exchange(*next.first);
     attempt([&] { run_dirty(changes); });
   }
@@ -299,6 +310,7 @@ void TiledMesher<D>::run_dirty(Changes* changes) {
       to.insert(to.end(), from.begin(), from.end());
     };
     append(changes->vertices, all[t].vertices);
+    append(changes->leaves, all[t].leaves);
     append(changes->simplices_come, all[t].simplices_come);
     append(changes->simplices_gone, all[t].simplices_gone);
   }
@@ -352,7 +364,7 @@ void TiledMesher<D>::require_all() {
 // --- Runs ------------------------------------------------------------------------------------
 
 template <int D>
-void TiledMesher<D>::first_run(const Edits& edits, const Ask& ask) {
+void TiledMesher<D>::first_run(const Edits& edits, const Ask& ask, const Lines& lines) {
   attempt([&] { watch(ask); });
   auto mark = std::chrono::steady_clock::now();
   const auto begin = [&](Phase phase) {
@@ -377,6 +389,7 @@ void TiledMesher<D>::first_run(const Edits& edits, const Ask& ask) {
   constexpr std::uint64_t kMany = ~std::uint64_t{0};
   begin(Phase::quadtree);
   run_all(kMany, [&](TileMesher<D>& tile, std::size_t t) {
+    if (lines) tile.edit_lines(lines);
     tile.edit(edits[t]);
     tile.run_quadtree();
   });
@@ -413,8 +426,23 @@ void TiledMesher<D>::require_sound() const {
 }
 
 template <int D>
+void TiledMesher<D>::edit_all(const Edits& edits, const Lines& lines) {
+  is_exact_ = false;
+  for (std::size_t t = 0; t < tiles_.size(); ++t) {
+    if (lines) tiles_[t]->edit_lines(lines);
+    tiles_[t]->edit(edits[t]);
+  }
+  is_exact_ = true;
+}
+
+template <int D>
+void TiledMesher<D>::commit_lines() noexcept {
+  for (const auto& tile : tiles_) tile->commit_lines();
+}
+
+template <int D>
 void TiledMesher<D>::update(const Edits& edits, const Ask& ask,
-                            const std::function<void(Changes&)>& last) {
+                            const std::function<void(Changes&)>& last, const Lines& lines) {
   require_sound();
   phase_ = Phase::update;
   attempt([&] { watch(ask); });
@@ -422,41 +450,39 @@ void TiledMesher<D>::update(const Edits& edits, const Ask& ask,
   is_exact_ = false;
   Changes changes;
   try {
-    attempt([&] {
-      for (std::size_t t = 0; t < tiles_.size(); ++t) tiles_[t]->edit(edits[t]);
-      is_exact_ = true;
-    });
+    attempt([&] { edit_all(edits, lines); });
     settle(&changes);
     require_all();
     last(changes);
   } catch (...) {
-    take_back(edits);
+    take_back(edits, lines);
     throw;
   }
+  commit_lines();
   unwatch();
 }
 
 // The edits have been made, or wait to be. What is told of the mesh is forgotten: at the end it is
 // as it was.
 template <int D>
-void TiledMesher<D>::take_back(const Edits& edits) noexcept {
+void TiledMesher<D>::take_back(const Edits& edits, const Lines& lines) noexcept {
   broken_ = true;
   failure_ = nullptr;
   if (least_of(is_exact_ ? 1 : 0) == 0) return;
   unwatch();
   attempt([&] {
     is_exact_ = false;
+    Edits inverse(edits.size());
     for (std::size_t t = 0; t < tiles_.size(); ++t) {
-      std::vector<typename TileMesher<D>::Edit> inverse;
       for (auto it = edits[t].rbegin(); it != edits[t].rend(); ++it) {
-        inverse.push_back(it->inverse());
+        inverse[t].push_back(it->inverse());
       }
-      tiles_[t]->edit(inverse);
     }
-    is_exact_ = true;
+    edit_all(inverse, lines ? std::make_shared<LineOrders>(lines->inverse()) : nullptr);
   });
   try {
     settle(nullptr);
+    commit_lines();
     broken_ = false;
   } catch (...) {  // it stays broken
   }
@@ -551,7 +577,7 @@ void TiledMesher<D>::list_simplices(std::size_t t, std::vector<Part>& parts, Oth
 }
 
 template <int D>
-Mesh<D> TiledMesher<D>::mesh(const IsInput& is_input) const {
+Mesh<D> TiledMesher<D>::mesh(const IsInput& is_input, const LineOf& line_of) const {
   require_sound();
   std::vector<Part> parts(tiles_.size());
   on_threads(tiles_.size(), [&](std::size_t t) { number_vertices(t, parts[t]); });
@@ -568,7 +594,17 @@ Mesh<D> TiledMesher<D>::mesh(const IsInput& is_input) const {
   on_threads(tiles_.size(), [&](std::size_t t) { list_simplices(t, parts, others); });
   places.insert(places.end(), others.places.begin(), others.places.end());
   kinds.insert(kinds.end(), others.kinds.begin(), others.kinds.end());
-  return canonical<D>(places, kinds, 0, {}, [&](auto&& visit) {
+  OnFeatures on;
+  const auto number_of = [&](const Point<D>& p) {
+    const std::size_t t = *own_tile(p);
+    return parts[t].first + parts[t].number[tiles_[t]->world().vertices.tree().find(p)->self];
+  };
+  for (const auto& tile : tiles_) {
+    tile->for_each_own_leaf([&](const Piece& piece, const Point<D>& lo, const Point<D>& hi) {
+      on.edges.push_back({number_of(lo), number_of(hi), line_of(piece.segment)});
+    });
+  }
+  return canonical<D>(places, kinds, 0, on, [&](auto&& visit) {
     for (const Part& part : parts)
       std::for_each(part.simplices.begin(), part.simplices.end(), visit);
   });

@@ -48,9 +48,7 @@ template <int D>
 class Outbox {
  public:
   void add(const Message<D>& m) {
-    using Kind = typename Message<D>::Kind;
-    const bool begins = m.kind == Kind::ask || m.kind == Kind::arrive;
-    const auto [it, is_new] = waiting_.try_emplace(key(m), begins ? 1 : -1);
+    const auto [it, is_new] = waiting_.try_emplace(key(m), m.begins() ? 1 : -1);
     if (!is_new) waiting_.erase(it);  // the opposite
   }
   [[nodiscard]] bool is_empty() const noexcept { return waiting_.empty(); }
@@ -70,19 +68,21 @@ class Outbox {
   struct Key {
     Turn<D> turn;
     std::uint32_t to;
-    bool is_birth;
+    Kind begins;
     Look<D> look;
     Birth<D> birth;
+    CutOfLeaf<D> cut;
     friend auto operator<=>(const Key&, const Key&) = default;
   };
+  static Kind opposite(Kind kind) noexcept {
+    return static_cast<Kind>(static_cast<std::uint8_t>(kind) ^ 1);
+  }
   static Key key(const Message<D>& m) {
-    return {m.turn(), m.to, m.kind == Kind::arrive || m.kind == Kind::depart, m.look, m.birth};
+    return {m.turn(), m.to, m.begins() ? m.kind : opposite(m.kind), m.look, m.birth, m.cut};
   }
   static Message<D> message(const std::pair<const Key, int>& waiting) {
     const auto& [k, sign] = waiting;
-    const Kind kind =
-        k.is_birth ? (sign > 0 ? Kind::arrive : Kind::depart) : (sign > 0 ? Kind::ask : Kind::end);
-    return {kind, k.to, k.look, k.birth};
+    return {sign > 0 ? k.begins : opposite(k.begins), k.to, k.look, k.birth, k.cut};
   }
   static Time time(const Turn<D>& turn) noexcept {
     return {turn.stage, turn.rank >> (kKeyWidths.phase + kKeyWidths.colour)};
@@ -98,21 +98,26 @@ class TiledMesher {
   using Changes = typename TileMesher<D>::Changes;
 
   /// `places`: of the input's points, which say where the cuts are. `tiles`: of all processes, as
-  /// many or fewer; a process may have none. `peers` must outlive it.
+  /// many or fewer; a process may have none. `peers` must outlive it, and so must `ends`: as for
+  /// TileMesher.
   TiledMesher(const Options<D>& options, const MeshBox<D>& box, const std::vector<Point<D>>& places,
-              std::size_t tiles, std::size_t threads, Peers& peers);
+              std::size_t tiles, std::size_t threads, Peers& peers,
+              const VertexPool<D>* ends = nullptr);
 
   /// `control` is asked, on the thread of the caller, while something runs. `ask(phase, calls)`:
   /// false if the run shall stop.
   using Ask = std::function<bool(Phase, std::uint64_t)>;
   /// Throws: Error, sac::Cancelled, std::bad_alloc, what `ask` throws: good for nothing then. What
   /// is thrown in one process is thrown in all, as by agree().
-  void first_run(const Edits& edits, const Ask& ask);
+  /// `lines`: null where there are none.
+  using Lines = std::shared_ptr<const LineOrders>;
+  void first_run(const Edits& edits, const Ask& ask, const Lines& lines = nullptr);
   /// Makes the edits; last(changes) is called, with those of this process, when all agree; it
   /// throws in all processes or in none. Throws: likewise, and what `last` throws: the edits are
   /// then taken back, by a run of their inverses. If that fails, too, every further update throws
   /// sac::UsageError.
-  void update(const Edits& edits, const Ask& ask, const std::function<void(Changes&)>& last);
+  void update(const Edits& edits, const Ask& ask, const std::function<void(Changes&)>& last,
+              const Lines& lines = nullptr);
 
   /// Tiles of this process.
   [[nodiscard]] std::size_t size() const noexcept { return tiles_.size(); }
@@ -126,7 +131,9 @@ class TiledMesher {
   /// The simplices of the tiles of this process, and their vertices. `is_input(p)`: of a vertex
   /// that is another process's and not on the boundary, whether it is a point of the input.
   using IsInput = std::function<bool(const Point<D>&)>;
-  [[nodiscard]] Mesh<D> mesh(const IsInput& is_input) const;
+  /// What line a segment is of, by what all tiles call it.
+  using LineOf = std::function<LineId(SegmentHandle)>;
+  [[nodiscard]] Mesh<D> mesh(const IsInput& is_input, const LineOf& line_of = {}) const;
   /// In the territories of this process.
   [[nodiscard]] std::size_t vertices() const noexcept;
   /// Of the phases of the first run.
@@ -162,6 +169,7 @@ class TiledMesher {
   void exchange(const Time& last);
   void settle(Changes* changes);
   void run_dirty(Changes* changes);
+  [[nodiscard]] bool try_nearer();
   void require_no_fault();
   void require_all();
   static constexpr std::uint32_t kUnnumbered = ~std::uint32_t{0};
@@ -170,7 +178,9 @@ class TiledMesher {
   void number_vertices(std::size_t t, Part& part) const;
   void list_simplices(std::size_t t, std::vector<Part>& parts, Others& others) const;
   void require_sound() const;
-  void take_back(const Edits& edits) noexcept;
+  void edit_all(const Edits& edits, const Lines& lines);
+  void take_back(const Edits& edits, const Lines& lines) noexcept;
+  void commit_lines() noexcept;
 
   Options<D> options_;
   std::size_t threads_;

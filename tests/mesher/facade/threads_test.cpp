@@ -332,7 +332,7 @@ TEST_CASE("how many threads there may be, and lines from the first update on") {
     REQUIRE(code([&] { BoxMesher<2> m(options); }) == ErrorCode::bad_option);
   }
   options.threads = 2;
-  BoxMesher<2> with_lines(options);  // from the first update on: one thread does it
+  BoxMesher<2> with_lines(options);  // from the first update on
   with_lines.insert(PointId{1}, {0.25, 0.25});
   with_lines.insert(PointId{2}, {0.75, 0.25});
   with_lines.insert_segment(LineId{1}, PointId{1}, PointId{2});

@@ -1,0 +1,292 @@
+// Split segments become edits of tiles, and what tiles have changed becomes a change of the mesh.
+#include "facade/tiled_plane_state.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "facade/asking.hpp"
+#include "facade/tile_angles.hpp"
+#include "facade/tile_changes.hpp"
+#include "facade/whole_change.hpp"
+#include "program/meter.hpp"
+#include "program/world_impl.hpp"
+#include "sets/report_difference.hpp"
+#include "tiles/on_threads.hpp"
+
+namespace mesher::detail {
+
+namespace {
+
+// All that is run here.
+struct SplitAll {
+  static constexpr std::string_view kName = "split";
+  void operator()(sac::Scope& s) const { s.environment<World<sac::Scope, 2>>().splits.drain(s); }
+};
+inline constexpr SplitAll split_all{};
+
+// Calls act(); what tiles say of errors is not what one thread would.
+template <class Act>
+void in_tiles(Act&& act) {
+  try {
+    act();
+  } catch (const Error&) {
+    throw NotInTiles();
+  }
+}
+
+template <class T>
+std::optional<T>& at(std::vector<std::optional<T>>& all, std::uint32_t handle) {
+  if (handle >= all.size()) all.resize(handle + std::size_t{1});
+  return all[handle];
+}
+
+}  // namespace
+
+TiledPlaneState::TiledPlaneState(const Options<2>& options)
+    : PlaneState(options), options_(options) {
+  world_->locates = false;
+}
+
+// --- What tiles are told ---------------------------------------------------------------------
+
+std::optional<TileMesher<2>::Located> TiledPlaneState::located(const Vertex<2>& v) const {
+  if (v.boundary || !world_->features.has(v)) return std::nullopt;
+  return Located{v.level, v.feature ? Role() : vertices().role(v)};
+}
+
+// Of all points, by parts of the pool.
+void TiledPlaneState::find_levels(std::size_t threads) {
+  on_threads(threads, [&](std::size_t part) {
+    FeatureTree<2>::Path path;
+    vertices().pool().for_each_in(part, threads, [&](Vertex<2>& v) {
+      if (!v.boundary && world_->features.has(v)) world_->features.find_level(v, path);
+    });
+  });
+}
+
+// Of all that is there.
+auto TiledPlaneState::build(const Tiles::Ask& ask) -> std::unique_ptr<Tiles> {
+  const auto threads = static_cast<std::size_t>(options_.threads);
+  std::vector<Point<2>> places;
+  pool().for_each([&](const Vertex<2>& v) {
+    if (!v.boundary && world_->features.has(v)) places.push_back(v.p);
+  });
+  auto tiles = std::make_unique<Tiles>(options_, box_, places, threads, threads, alone_, &pool());
+  Tiles::Edits by_tile(tiles->size());
+  told_points_.assign(pool().end_of_handles(), std::nullopt);
+  pool().for_each([&](const Vertex<2>& v) {
+    const auto is = told_points_[v.self] = located(v);
+    if (is) by_tile[*tiles->own_tile(v.p)].push_back({v.p, std::nullopt, is});
+  });
+  const auto lines = std::make_shared<LineOrders>();
+  auto& segments = world_->segments;
+  told_zones_.assign(segments.pool().last() + std::size_t{1}, std::nullopt);
+  segments.pool().for_each([&](const Segment& s) {
+    if (!s.alive) return;
+    const Zones zones = segments.zones(s);
+    told_zones_[s.self] = zones;
+    lines->segments.push_back({s.self, s.a, s.b, std::nullopt, zones});
+  });
+  world_->leaves.for_each([&](const Leaf& leaf) { lines->leaves.push_back({leaf.piece, true}); });
+  tiles->first_run(by_tile, ask, lines);
+  return tiles;
+}
+
+// What an update has changed, before it is committed here.
+void TiledPlaneState::find_news(News& news) {
+  world_->features.require_apart();
+  news.by_tile.resize(tiles_->size());
+  find_points(news);
+  find_lines(news);
+}
+
+void TiledPlaneState::find_points(News& news) {
+  for (const VertexHandle h : vertices().log().touched) {
+    const Vertex<2>& v = pool()[h];
+    const std::optional<Located> is = located(v);
+    std::optional<Located>& told = at(told_points_, h);
+    if (is == told) continue;
+    news.by_tile[*tiles_->own_tile(v.p)].push_back({v.p, told, is});
+    news.points.emplace_back(h, told);
+    told = is;
+  }
+}
+
+void TiledPlaneState::find_lines(News& news) {
+  auto& segments = world_->segments;
+  segments.store().for_each_changed([&](const Segment& s) {
+    std::optional<Zones> is;
+    if (s.alive) is = segments.zones(s);
+    std::optional<Zones>& told = at(told_zones_, s.self);
+    if (is == told) return;
+    news.lines.segments.push_back({s.self, s.a, s.b, told, is});
+    news.zones.emplace_back(s.self, told);
+    told = is;
+  });
+  world_->leaves.for_each_changed([&](const Leaf& leaf) {
+    const bool is = world_->leaves.is_leaf(leaf);
+    if (is != leaf.committed) news.lines.leaves.push_back({leaf.piece, is});
+  });
+}
+
+void TiledPlaneState::take_back(const News& news) noexcept {
+  for (const auto& [h, was] : news.points) told_points_[h] = was;
+  for (const auto& [h, was] : news.zones) told_zones_[h] = was;
+}
+
+// --- Runs ------------------------------------------------------------------------------------
+
+Change<2> TiledPlaneState::first_run(Edits<2> edits, const RunControl& control,
+                                     const Accept& accept) {
+  ids_.reserve(edits.points.size());
+  ask_ = asking(control, Phase::quadtree, &fail_stopped);
+  for (const auto& edit : edits.points) add_first(edit);
+  add_features_first(edits);
+  in_tiles([&] {
+    engine_->run<split_all>();
+    world_->features.require_apart();
+  });
+  commit();
+  find_levels(static_cast<std::size_t>(options_.threads));
+  const Tiles::Ask ask = [&, points = ids_.size()](Phase phase, std::uint64_t calls) {
+    const std::uint64_t of = phase == Phase::quadtree ? std::max<std::uint64_t>(points, calls) : 0;
+    return detail::report(control, {phase, calls, of});
+  };
+  in_tiles([&] { tiles_ = build(ask); });
+  require_leaves();
+  ran_ = true;
+  Change<2> change = whole_change(mesh());
+  set_first(stats_, change, *tiles_);
+  change.angles = all_angles(*world_, *tiles_, options_.rho);
+  change.calls.executed = tiles_->calls();
+  if (accept) accept(change);
+  return change;
+}
+
+// One thread looks at them all.
+void TiledPlaneState::require_leaves() const {
+  for (std::size_t t = 0; t < tiles_->size(); ++t) {
+    if ((*tiles_)[t].may_lose_leaves()) throw NotInTiles();
+  }
+}
+
+Change<2> TiledPlaneState::propagate(const Edits<2>& edits, const RunControl& control,
+                                     const Accept& accept) {
+  SAC_EXPECTS(takes(edits));
+  Change<2> change;
+  std::optional<Growth<2>> growth;  // before `accept` makes more of it
+  News news;
+  bool is_judged = false;  // what is thrown then is the caller's
+  const std::uint64_t before = tiles_->calls();
+  const Tiles::Ask ask = [&](Phase phase, std::uint64_t calls) {
+    return detail::report(control, {phase, calls, 0});
+  };
+  const auto last = [&](Tiles::Changes& changes) {
+    require_leaves();
+    change = change_of(changes);
+    growth.emplace(change);
+    change.calls.executed = tiles_->calls() - before;
+    is_judged = true;
+    if (accept) accept(change);
+  };
+  const std::function<void()> run_tiles = [&] {  // while all can be undone here
+    make_room();
+    prepare_names();
+    find_news(news);
+    const auto lines = news.lines.is_empty() ? nullptr : std::make_shared<LineOrders>(news.lines);
+    tiles_->update(news.by_tile, ask, last, lines);
+  };
+  ask_ = asking(control, Phase::update, &fail_stopped);
+  make(edits);
+  try {
+    engine_->propagate(run_tiles);
+  } catch (...) {
+    take_back(news);
+    commit();
+    forget();
+    if (tiles_->is_broken()) tiles_ = build({});  // the mesh is a function of what is there
+    if (is_judged) throw;
+    in_tiles([] { throw; });
+  }
+  rename(edits.points);
+  commit_names();
+  forget();
+  commit();
+  growth->add_to(stats_);
+  return change;
+}
+
+// --- Changes ---------------------------------------------------------------------------------
+
+Change<2> TiledPlaneState::change_of(Tiles::Changes& changes) const {
+  Change<2> change = detail::change_of<2>(changes);
+  report_edges(changes, change);
+  change.angles = new_angles(*world_, *tiles_, options_.rho, change.simplices_added);
+  return change;
+}
+
+// Leaves that ended or began, without those of which another piece is in the same place; and those
+// that stay, of segments that are now of another line.
+void TiledPlaneState::report_edges(const Tiles::Changes& changes, Change<2>& change) const {
+  struct Fate {
+    Point<2> lo{}, hi{};
+    bool before = false, now = false;
+  };
+  std::map<Piece, Fate> fates;
+  for (const auto& e : changes.leaves) {
+    const auto [it, is_new] = fates.try_emplace(e.piece, Fate{e.lo, e.hi, !e.came, e.came});
+    it->second.now = e.came;
+  }
+  LineEdges gone, come;
+  for (const auto& [piece, fate] : fates) {
+    const SegmentHandle s = piece.segment;
+    if (fate.before) gone.push_back(edge_between(fate.lo, fate.hi, old_line(s)));
+    if (fate.now) come.push_back(edge_between(fate.lo, fate.hi, line(s)));
+  }
+  if (any_renamed()) {
+    for (std::size_t t = 0; t < tiles_->size(); ++t) {
+      (*tiles_)[t].for_each_own_leaf([&](const Piece& piece, const auto& lo, const auto& hi) {
+        const SegmentHandle s = piece.segment;
+        if (!is_renamed(s) || fates.contains(piece)) return;
+        gone.push_back(edge_between(lo, hi, old_line(s)));
+        come.push_back(edge_between(lo, hi, line(s)));
+      });
+    }
+  }
+  report_difference(std::move(come), std::move(gone), change.edges_added, change.edges_removed);
+}
+
+// --- Between updates -------------------------------------------------------------------------
+
+Mesh<2> TiledPlaneState::mesh() const {
+  return tiles_->mesh({}, [this](SegmentHandle s) { return old_line(s); });
+}
+
+MeshStats TiledPlaneState::stats() const {
+  MeshStats s = stats_;
+  s.trace_bytes = engine_->bytes() + pool().bytes() + vertices().tree().bytes() +
+                  world_->features.bytes() + feature_bytes();
+  if (tiles_ != nullptr) add_trace(*tiles_, s);
+  return s;
+}
+
+void TiledPlaneState::check_invariants() const {
+  engine_->check_invariants();
+  world_->features.check_invariants();
+  world_->segments.check_invariants();
+  world_->leaves.check_invariants();
+  tiles_->check_invariants();
+  pool().for_each([&](const Vertex<2>& v) {
+    const auto told = v.self < told_points_.size() ? told_points_[v.self] : std::nullopt;
+    SAC_INVARIANT(told == located(v));
+  });
+  world_->segments.pool().for_each([&](const Segment& s) {
+    SAC_INVARIANT(s.alive && told_zones_[s.self] == world_->segments.zones(s));
+  });
+  SAC_INVARIANT(stats_.vertices == tiles_->vertices());
+  std::size_t simplices = 0;
+  for (std::size_t t = 0; t < tiles_->size(); ++t) simplices += (*tiles_)[t].own_simplices();
+  SAC_INVARIANT(stats_.simplices == simplices);
+}
+
+}  // namespace mesher::detail

@@ -1,0 +1,73 @@
+// The state of a mesher of points and lines in the plane, in tiles.
+//
+// It is a PlaneState whose program ends when segments are split: that is a function of the input
+// alone. What it finds becomes edits of tiles: which pieces are leaves before anything is refined,
+// which vertices they end at, and how crowded each is. The tiles refine, and have the mesh.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "facade/plane_state.hpp"
+#include "tiles/tiled_mesher.hpp"
+
+namespace mesher::detail {
+
+/// What is thrown where tiles have failed, or cannot tell: one thread does it, or says why not.
+struct NotInTiles {};
+
+class TiledPlaneState final : public PlaneState {
+ public:
+  /// Throws: Error(bad_option).
+  explicit TiledPlaneState(const Options<2>& options);
+
+  /// Both throw NotInTiles, too.
+  Change<2> first_run(Edits<2> edits, const RunControl& control, const Accept& accept) override;
+  Change<2> propagate(const Edits<2>& edits, const RunControl& control,
+                      const Accept& accept) override;
+  /// Points and lines.
+  [[nodiscard]] bool takes(const Edits<2>& edits) const noexcept override {
+    return !edits.polygons.has_edits() && !edits.limits;
+  }
+
+  [[nodiscard]] Mesh<2> mesh() const override;
+  [[nodiscard]] MeshStats stats() const override;
+  [[nodiscard]] const sac::Engine& engine() const noexcept override {
+    return (*tiles_)[0].engine();
+  }
+  void check_invariants() const override;
+
+  [[nodiscard]] const TiledMesher<2>& tiles() const noexcept { return *tiles_; }
+
+ private:
+  using Tiles = TiledMesher<2>;
+  using Located = TileMesher<2>::Located;
+  // What tiles are told.
+  struct News {
+    Tiles::Edits by_tile;
+    LineOrders lines;
+    // As they were told before, so that it can be taken back.
+    std::vector<std::pair<VertexHandle, std::optional<Located>>> points;
+    std::vector<std::pair<SegmentHandle, std::optional<Zones>>> zones;
+  };
+
+  void find_levels(std::size_t threads);
+  [[nodiscard]] std::unique_ptr<Tiles> build(const Tiles::Ask& ask);
+  [[nodiscard]] std::optional<Located> located(const Vertex<2>& v) const;
+  void find_news(News& news);
+  void find_points(News& news);
+  void find_lines(News& news);
+  void take_back(const News& news) noexcept;
+  void require_leaves() const;
+  [[nodiscard]] Change<2> change_of(Tiles::Changes& changes) const;
+  void report_edges(const Tiles::Changes& changes, Change<2>& change) const;
+
+  Options<2> options_;
+  Alone alone_;
+  std::vector<std::optional<Located>> told_points_;  // by handle
+  std::vector<std::optional<Zones>> told_zones_;     // by handle
+  std::unique_ptr<Tiles> tiles_;
+};
+
+}  // namespace mesher::detail
