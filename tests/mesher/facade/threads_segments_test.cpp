@@ -208,6 +208,14 @@ constexpr PslgKind kFamilies[] = {PslgKind::segments, PslgKind::lengths,   PslgK
 TEST_CASE("with lines, on several threads every update is that of one") {
   std::uint64_t seed = 1;
   for (const PslgKind kind : kFamilies) {
+    const std::size_t n = kind == PslgKind::fan || kind == PslgKind::bundle ? 12 : 40;
+    check_edits({kind, n, seed}, seed % 2 == 0 ? 2 : 5, 16);
+    ++seed;
+  }
+}
+TEST_CASE("soak: with lines, on several threads every update is that of one", "[.soak][soak]") {
+  std::uint64_t seed = 20;
+  for (const PslgKind kind : kFamilies) {
     for (const int threads : {2, 3, 5, 8}) {
       const std::size_t n = kind == PslgKind::fan || kind == PslgKind::bundle ? 12 : 40;
       check_edits({kind, n, seed++}, threads, 16);
@@ -407,6 +415,9 @@ struct LineWorld {
 }  // namespace
 
 TEST_CASE("with lines, on several threads an update in which an allocation fails leaves the mesh") {
+  support::check_failing_updates<LineWorld>(support::SeeMesh{}, 7);
+}
+TEST_CASE("soak: with lines, the same for every allocation", "[.soak][soak]") {
   support::check_failing_updates<LineWorld>();
 }
 
