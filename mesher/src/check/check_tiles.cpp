@@ -23,9 +23,6 @@ namespace {
 constexpr double kArea = 1e-9;
 // Of the length of an edge: so near its middle a place beside it is in the polygon beside it.
 constexpr double kBeside = 0x1p-10;
-// What rounding tilts a normal by, times how narrow the polygon is; no normal by more.
-constexpr double kTilt = 0x1p-50;
-constexpr double kMostTilt = 1e-8;
 
 FlatPolygon flat(const mesher::Polygon& polygon, const std::map<PointId, Point<3>>& places) {
   std::vector<std::vector<Point<3>>> loops;
@@ -39,19 +36,13 @@ FlatPolygon flat(const mesher::Polygon& polygon, const std::map<PointId, Point<3
 }  // namespace
 
 // How far vertices on a polygon may be off its plane: twice as far as what it names, since new ones
-// are in planes of vertices that are off it, too; and where it is narrow, as far as rounding of a
-// normal tilts the plane in which they were made.
+// are in planes of vertices that are off it, too.
 double ComplexCheck::flatness(const Surface& surface, const FlatPolygon& f) const {
-  const Point<3>& origin = places_.at(*surface.points.begin());
-  double most = 0, reach2 = 0;
+  double most = 0;
   for (const PointId id : surface.points) {
-    const Point<3>& p = places_.at(id);
-    most = std::max(most, static_cast<double>(std::abs(f.height(p))));
-    reach2 = std::max(reach2, squared_distance(origin, p));
+    most = std::max(most, static_cast<double>(std::abs(f.height(places_.at(id)))));
   }
-  const double reach = std::sqrt(reach2);
-  const double narrow = reach2 / static_cast<double>(f.area());
-  return 2 * most + 4 * rounding_ + std::min(narrow * kTilt, kMostTilt) * reach;
+  return 2 * most + 4 * rounding_;
 }
 
 void ComplexCheck::add_edges(Surface& surface, const std::vector<PointId>& ends,
