@@ -101,6 +101,32 @@ void print_exchanges(const Case<D>& c) {
       static_cast<double>(seen) / static_cast<double>(state.stats().vertices));
 }
 
+// Updates of one thread and of several, by the clock: one at a time, and of much at once.
+template <int D>
+struct Updates {
+  BoxMesher<D>&one, &many;
+  std::vector<double> us_one{}, us_many{};
+  double batch_one = 0, batch_many = 0;
+
+  void update() {
+    us_one.push_back(1e6 * time_of([&] { one.update(); }).clock);
+    us_many.push_back(1e6 * time_of([&] { many.update(); }).clock);
+  }
+  void update_together() {
+    batch_one = time_of([&] { one.update(); }).clock;
+    batch_many = time_of([&] { many.update(); }).clock;
+  }
+  void print(const std::string& name) {
+    std::printf(
+        "{\"bench\":\"threads\",\"figure\":\"updates\",%s,\"one_median_us\":%.1f,"
+        "\"many_median_us\":%.1f,\"one_p99_us\":%.1f,\"many_p99_us\":%.1f,\"one_batch_ms\":%.1f,"
+        "\"many_batch_ms\":%.1f}\n",
+        name.c_str(), bench::quantile(us_one, 0.5), bench::quantile(us_many, 0.5),
+        bench::quantile(us_one, 0.99), bench::quantile(us_many, 0.99), 1e3 * batch_one,
+        1e3 * batch_many);
+  }
+};
+
 template <int D>
 void bench_case(Case<D> c) {
   BoxMesher<D> one = c.mesher(1), many = c.mesher(c.threads);
@@ -117,22 +143,14 @@ void bench_case(Case<D> c) {
       by_many.clock - in_tiles, by_one.process, by_many.process,
       static_cast<double>(calls) / static_cast<double>(calls_of_one),
       static_cast<double>(s.trace_bytes) / static_cast<double>(of_one.trace_bytes));
-  std::vector<double> us_one, us_many;
+  Updates<D> updates{one, many};
   for (int k = 0; k < 1000; ++k) {
     c.move_any(one, many);
-    us_one.push_back(1e6 * time_of([&] { one.update(); }).clock);
-    us_many.push_back(1e6 * time_of([&] { many.update(); }).clock);
+    updates.update();
   }
   for (int k = 0; k < 1000; ++k) c.move_any(one, many);
-  const double batch_one = time_of([&] { one.update(); }).clock;
-  const double batch_many = time_of([&] { many.update(); }).clock;
-  std::printf(
-      "{\"bench\":\"threads\",\"figure\":\"updates\",%s,\"one_median_us\":%.1f,"
-      "\"many_median_us\":%.1f,\"one_p99_us\":%.1f,\"many_p99_us\":%.1f,\"one_batch_ms\":%.1f,"
-      "\"many_batch_ms\":%.1f}\n",
-      c.name().c_str(), bench::quantile(us_one, 0.5), bench::quantile(us_many, 0.5),
-      bench::quantile(us_one, 0.99), bench::quantile(us_many, 0.99), 1e3 * batch_one,
-      1e3 * batch_many);
+  updates.update_together();
+  updates.print(c.name());
   print_exchanges(c);
 }
 
@@ -189,18 +207,14 @@ void bench_lines(Lines c) {
       static_cast<double>(calls) / static_cast<double>(calls_of_one),
       static_cast<double>(s.trace_bytes) / static_cast<double>(of_one.trace_bytes),
       of_one.seconds_quadtree, s.seconds_quadtree, of_one.seconds_steiner, s.seconds_steiner);
-  std::vector<double> us_one, us_many;
+  Updates<2> updates{one, many};
   const auto both = [&](auto&& edit) { edit(one), edit(many); };
-  const auto update = [&] {
-    us_one.push_back(1e6 * time_of([&] { one.update(); }).clock);
-    us_many.push_back(1e6 * time_of([&] { many.update(); }).clock);
-  };
   for (int k = 0; k < 200; ++k) {
     c.with(c.random.below(c.size()), [&](const auto& l) {
       both([&](BoxMesher<2>& m) { m.remove_line(l.id); });
-      update();
+      updates.update();
       both([&](BoxMesher<2>& m) { Lines::insert_line(m, l); });
-      update();
+      updates.update();
     });
   }
   for (std::size_t i = 0; i < std::min<std::size_t>(200, c.size()); ++i) {
@@ -208,15 +222,8 @@ void bench_lines(Lines c) {
       if (one.contains_line(l.id)) both([&](BoxMesher<2>& m) { m.remove_line(l.id); });
     });
   }
-  const double batch_one = time_of([&] { one.update(); }).clock;
-  const double batch_many = time_of([&] { many.update(); }).clock;
-  std::printf(
-      "{\"bench\":\"threads\",\"figure\":\"updates\",%s,\"one_median_us\":%.1f,"
-      "\"many_median_us\":%.1f,\"one_p99_us\":%.1f,\"many_p99_us\":%.1f,\"one_batch_ms\":%.1f,"
-      "\"many_batch_ms\":%.1f}\n",
-      c.name().c_str(), bench::quantile(us_one, 0.5), bench::quantile(us_many, 0.5),
-      bench::quantile(us_one, 0.99), bench::quantile(us_many, 0.99), 1e3 * batch_one,
-      1e3 * batch_many);
+  updates.update_together();
+  updates.print(c.name());
 }
 
 bool bench_lines(const std::string& family, std::size_t n, int threads) {

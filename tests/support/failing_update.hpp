@@ -54,4 +54,19 @@ void check_failing_updates() {
   check_failing_updates<World>(SeeMesh{});
 }
 
+/// Whether an update is stopped, which leaves the mesh.
+template <class Mesher, class Mesh>
+bool is_stopped(Mesher& m, const mesher::RunControl& control, const Mesh& before) {
+  try {
+    m.update(control);
+  } catch (const mesher::Error& e) {
+    REQUIRE(e.code() == mesher::ErrorCode::cancelled);
+    m.discard_edits();
+    REQUIRE(m.mesh() == before);
+    m.check_invariants();
+    return true;
+  }
+  return false;
+}
+
 }  // namespace support

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/box.hpp"
 #include "geometry/space_distances.hpp"
 
 namespace mesher::detail {
@@ -532,17 +533,12 @@ bool VertexIndex<sac::Scope, D>::star_has_changed_feature(const CellSeen& cell) 
     Box<3> box{v.p, v.p};
     for (const std::uint32_t code : Cell::neighbours(seen)) {
       if (code >= Cell::kVirtual) break;
-      const Point<3>& p = pool_[code].p;
-      for (int i = 0; i < 3; ++i) {
-        box.lo[i] = std::min(box.lo[i], p[i]);
-        box.hi[i] = std::max(box.hi[i], p[i]);
-      }
+      grow(box, pool_[code].p);
     }
     const auto slack = [&](double radius) {
       return radius * (1 + 0x1p-9) + 0x1p9 * resolution(v.p, 0);
     };
-    const PlaceBall whole{scaled(0.5, plus(box.lo, box.hi)),
-                          slack(std::sqrt(squared_distance(box.lo, box.hi)) / 2)};
+    const PlaceBall whole{middle_of(box), slack(reach_of(box))};
     balls_.clear();
     Cell::visit_gap_balls(pool_, v, unpacked(cell.radius), seen,
                           [&](const Point<3>& middle, double radius2) {

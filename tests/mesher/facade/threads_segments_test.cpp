@@ -454,16 +454,7 @@ TEST_CASE("with lines, an update on several threads that is stopped, anywhere, i
     for (std::size_t i = 0; i < graph.segments.size(); i += 2) {
       m.remove_line(graph.segments[i].id);
     }
-    stopped = false;
-    try {
-      m.update(stop_after(after));
-    } catch (const mesher::Error& e) {
-      REQUIRE(e.code() == ErrorCode::cancelled);
-      stopped = true;
-      m.discard_edits();
-      REQUIRE(m.mesh() == before);
-      m.check_invariants();
-    }
+    stopped = support::is_stopped(m, stop_after(after), before);
   }
   struct Mine : std::runtime_error {
     Mine() : std::runtime_error("mine") {}

@@ -275,16 +275,7 @@ TEST_CASE("an update on several threads that is stopped, anywhere, is taken back
     int asked = 0;
     const RunControl control{.progress = [&](const Progress&) { return asked++ < after; },
                              .stop = {}};
-    stopped = false;
-    try {
-      m.update(control);
-    } catch (const mesher::Error& e) {
-      REQUIRE(e.code() == ErrorCode::cancelled);
-      stopped = true;
-      m.discard_edits();
-      REQUIRE(m.mesh() == before);
-      m.check_invariants();
-    }
+    stopped = support::is_stopped(m, control, before);
   }
   struct Mine : std::runtime_error {
     Mine() : std::runtime_error("mine") {}
