@@ -1,8 +1,9 @@
 // Several threads beside one: first runs, updates, and what the tiles say to each other.
 //
-//   threads_bench [[3d:|lines:]FAMILY:N:THREADS]...
+//   threads_bench [[3d:|lines:]FAMILY:N:THREADS[:MEASURE]]...
 //
-// Families of points, or of lines in the plane. Default: uniform:1000000:2 clusters:300000:2
+// Families of points, or of lines in the plane. MEASURE: the largest of a simplex, where the domain
+// divided by N is 1; without it any. Default: uniform:1000000:2 clusters:300000:2
 // 3d:uniform:100000:2 lines:segments:100000:2. One JSON line per figure, times
 // in seconds by the clock and of the process:
 //   first_run  with points announced before: of one thread, of several, the ratio; of the latter
@@ -13,9 +14,13 @@
 //   updates    microseconds by the clock, of points that move anywhere, one at a time: median and
 //              99th percentile of one and of several threads; a batch of 1000, of both; of lines
 //              that go and come again, a batch of 200
+//   limits     the same of a quarter of MEASURE in boxes that 100 points would be in, and MEASURE
+//              again; a batch of 20 boxes
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <optional>
 #include <string>
@@ -50,12 +55,14 @@ struct Case {
   std::size_t n;
   int threads;
   std::vector<Point<D>> points;
+  double relative;  // the largest measure
   mesher::Options<D> options;
   mesher::SplitMix64 random{3};
 
   [[nodiscard]] std::string name() const {
     return "\"family\":\"" + family + "\",\"dimension\":" + std::to_string(D) +
-           ",\"n\":" + std::to_string(n) + ",\"threads\":" + std::to_string(threads);
+           ",\"n\":" + std::to_string(n) + ",\"threads\":" + std::to_string(threads) +
+           ",\"measure\":" + std::to_string(relative);
   }
   [[nodiscard]] BoxMesher<D> mesher(int with_threads) const {
     mesher::Options<D> some = options;
@@ -116,16 +123,43 @@ struct Updates {
     batch_one = time_of([&] { one.update(); }).clock;
     batch_many = time_of([&] { many.update(); }).clock;
   }
-  void print(const std::string& name) {
+  void print(const std::string& name, const char* figure = "updates") {
     std::printf(
-        "{\"bench\":\"threads\",\"figure\":\"updates\",%s,\"one_median_us\":%.1f,"
+        "{\"bench\":\"threads\",\"figure\":\"%s\",%s,\"one_median_us\":%.1f,"
         "\"many_median_us\":%.1f,\"one_p99_us\":%.1f,\"many_p99_us\":%.1f,\"one_batch_ms\":%.1f,"
         "\"many_batch_ms\":%.1f}\n",
-        name.c_str(), bench::quantile(us_one, 0.5), bench::quantile(us_many, 0.5),
+        figure, name.c_str(), bench::quantile(us_one, 0.5), bench::quantile(us_many, 0.5),
         bench::quantile(us_one, 0.99), bench::quantile(us_many, 0.99), 1e3 * batch_one,
         1e3 * batch_many);
   }
 };
+
+// Limits that change in boxes.
+template <int D>
+void bench_limits(Case<D>& c, BoxMesher<D>& one, BoxMesher<D>& many) {
+  Updates<D> updates{one, many};
+  const auto limit = [&](double relative) {
+    const double measure = c.options.max_measure * relative;
+    const double part = std::pow(100.0 / static_cast<double>(c.n), 1.0 / D);
+    mesher::Box<D> box;
+    for (int i = 0; i < D; ++i) {
+      const double extent = c.options.domain.hi[i] - c.options.domain.lo[i];
+      box.lo[i] = c.options.domain.lo[i] + c.random.unit() * extent * (1 - part);
+      box.hi[i] = box.lo[i] + extent * part;
+    }
+    one.limit(box, {.max_measure = measure}), many.limit(box, {.max_measure = measure});
+    return box;
+  };
+  for (int k = 0; k < 20; ++k) {
+    const mesher::Box<D> box = limit(0.25);
+    updates.update();
+    for (auto* m : {&one, &many}) m->limit(box, {.max_measure = c.options.max_measure});
+    updates.update();
+  }
+  for (int k = 0; k < 20; ++k) static_cast<void>(limit(0.25));
+  updates.update_together();
+  updates.print(c.name(), "limits");
+}
 
 template <int D>
 void bench_case(Case<D> c) {
@@ -151,6 +185,7 @@ void bench_case(Case<D> c) {
   for (int k = 0; k < 1000; ++k) c.move_any(one, many);
   updates.update_together();
   updates.print(c.name());
+  if (c.relative != 0) bench_limits(c, one, many);
   print_exchanges(c);
 }
 
@@ -160,11 +195,12 @@ struct Lines {
   std::string family;
   int threads;
   mesher::Graph<2> graph;
+  double relative;  // the largest measure
   mesher::SplitMix64 random{3};
 
   [[nodiscard]] std::string name() const {
     return "\"family\":\"lines:" + family + "\",\"n\":" + std::to_string(size()) +
-           ",\"threads\":" + std::to_string(threads);
+           ",\"threads\":" + std::to_string(threads) + ",\"measure\":" + std::to_string(relative);
   }
   [[nodiscard]] std::size_t size() const { return graph.segments.size() + graph.polylines.size(); }
   static void insert_line(BoxMesher<2>& m, const mesher::Segment& s) {
@@ -181,6 +217,7 @@ struct Lines {
   }
   [[nodiscard]] BoxMesher<2> mesher(int with_threads) const {
     mesher::Options<2> options{.domain = {{0, 0}, {1, 1}}, .threads = with_threads};
+    options.max_measure = relative / static_cast<double>(size());
     BoxMesher<2> m(options);
     for (const auto& p : graph.points) m.insert(p.id, p.at);
     for (std::size_t i = 0; i < size(); ++i) with(i, [&](const auto& l) { insert_line(m, l); });
@@ -226,19 +263,23 @@ void bench_lines(Lines c) {
   updates.print(c.name());
 }
 
-bool bench_lines(const std::string& family, std::size_t n, int threads) {
+bool bench_lines(const std::string& family, std::size_t n, int threads, double measure) {
   const auto kind = mesher::pslg_kind(family);
   if (!kind || n == 0 || threads < 1) return false;
-  bench_lines({family, threads, mesher::generate_pslg({*kind, n})});
+  bench_lines({family, threads, mesher::generate_pslg({*kind, n}), measure});
   return true;
 }
 
 template <int D>
-bool bench_points(const std::string& family, std::size_t n, int threads) {
+bool bench_points(const std::string& family, std::size_t n, int threads, double measure) {
   const auto kind = mesher::point_kind(family);
   if (!kind || n == 0 || threads < 1) return false;
-  Case<D> c{family, n, threads, mesher::generate_points<D>(*kind, n, 1), {}};
+  Case<D> c{family, n, threads, mesher::generate_points<D>(*kind, n, 1), measure, {}};
   c.options.domain = mesher::snapped_domain<D>(c.points);
+  c.options.max_measure = measure / static_cast<double>(n);
+  for (int i = 0; i < D; ++i) {
+    c.options.max_measure *= c.options.domain.hi[i] - c.options.domain.lo[i];
+  }
   bench_case(std::move(c));
   return true;
 }
@@ -252,8 +293,11 @@ bool bench_argument(std::string_view text) {
   const std::string family(text.substr(0, colon));
   const std::size_t n = std::strtoull(text.data() + colon + 1, nullptr, 10);
   const int threads = std::atoi(text.data() + second + 1);
-  if (of_lines) return bench_lines(family, n, threads);
-  return in_space ? bench_points<3>(family, n, threads) : bench_points<2>(family, n, threads);
+  const std::size_t third = text.find(':', second + 1);
+  const double measure = third == text.npos ? 0 : std::atof(text.data() + third + 1);
+  if (of_lines) return bench_lines(family, n, threads, measure);
+  return in_space ? bench_points<3>(family, n, threads, measure)
+                  : bench_points<2>(family, n, threads, measure);
 }
 
 }  // namespace
@@ -266,7 +310,8 @@ int main(int argc, char** argv) {
              "lines:segments:100000:2"};
   for (const std::string_view text : cases) {
     if (bench_argument(text)) continue;
-    std::fprintf(stderr, "%s: not [3d:|lines:]FAMILY:N:THREADS\n", std::string(text).c_str());
+    std::fprintf(stderr, "%s: not [3d:|lines:]FAMILY:N:THREADS[:MEASURE]\n",
+                 std::string(text).c_str());
     return 2;
   }
 }

@@ -24,6 +24,7 @@
 
 #include "borders/territory.hpp"
 #include "borders/turn.hpp"
+#include "borders/whole_input.hpp"
 #include "index/look_listener.hpp"
 #include "mesher/error.hpp"
 #include "sac/sac.hpp"
@@ -33,31 +34,50 @@ namespace mesher::detail {
 template <int D>
 class TileBorder final : public sac::Structure, public LookListener<D> {
  public:
-  /// `side`: of the meshing box.
-  TileBorder(sac::Engine& engine, const Territories<D>& all, std::size_t self, double side)
-      : engine_(engine), all_(all), self_(self), side_(side), id_(engine.add_structure(*this)) {}
+  /// `side`: of the meshing box. What `whole` refers to must outlive the tile.
+  TileBorder(sac::Engine& engine, const Territories<D>& all, std::size_t self, double side,
+             const WholeInput<D>& whole)
+      : engine_(engine),
+        all_(all),
+        self_(self),
+        side_(side),
+        whole_(whole),
+        id_(engine.add_structure(*this)) {}
   TileBorder(const TileBorder&) = delete;
   TileBorder& operator=(const TileBorder&) = delete;
 
   /// The vertices, and the agendas' numbers; any other is one of ChooseSteiners.
-  void attach(const VertexPool<D>& pool, std::uint64_t quadtree, std::uint64_t stars) noexcept {
+  void attach(const VertexPool<D>& pool, std::uint64_t fills, std::uint64_t quadtree,
+              std::uint64_t stars) noexcept {
     pool_ = &pool;
+    fills_ = fills;
     quadtree_ = quadtree;
     stars_ = stars;
   }
-  /// In the plane: who has the points of the whole input, at which segments end. It must outlive
-  /// the tile. Null: there are no segments.
-  void set_ends(const VertexPool<D>* ends) noexcept { ends_ = ends; }
-  [[nodiscard]] const VertexPool<D>* ends() const noexcept { return ends_; }
+  [[nodiscard]] const WholeInput<D>& whole() const noexcept { return whole_; }
   [[nodiscard]] bool owns(const Point<D>& p) const noexcept { return all_.owns(self_, p); }
   /// Whether nothing beyond the territory concerns who looks so far around v.
   [[nodiscard]] bool holds(const Vertex<D>& v, const Reach<D>& reach) const noexcept {
-    return is_inside(area_of(v, reach));
+    return holds(area_of(v, reach));
+  }
+  [[nodiscard]] bool holds(const Box<D>& area) const noexcept {
+    return all_.owns(self_, area.lo) && all_.owns(self_, area.hi);
+  }
+  /// Whether the territory meets the closed box; perhaps also if it is just beside it.
+  [[nodiscard]] bool meets(const Box<D>& area) const noexcept {
+    const Box<D>& own = all_.box(self_);
+    const double slack = side_ * 0x1p-46;  // coordinates are rounded
+    bool meets = true;
+    for (std::size_t i = 0; i < D; ++i) {
+      meets = meets && own.lo[i] - slack <= area.hi[i] && area.lo[i] <= own.hi[i] + slack;
+    }
+    return meets;
   }
   [[nodiscard]] Turn<D> turn_of(const sac::Call& call) const noexcept {
-    const Stage stage = call.work_queue == quadtree_ ? Stage::quadtree
-                        : call.work_queue == stars_  ? Stage::stars
-                                                     : Stage::steiner;
+    const Stage stage = call.work_queue == fills_      ? Stage::fill
+                        : call.work_queue == quadtree_ ? Stage::quadtree
+                        : call.work_queue == stars_    ? Stage::stars
+                                                       : Stage::steiner;
     Turn<D> turn{stage, sac::Slot::of(call).rank, sac::Slot::of(call).order, {}};
     const bool is_cut = turn.key(kKeyWidths).phase > 1;
     if (stage == Stage::steiner && !is_cut) {  // Complete, or ComputeNN, of a vertex in a bucket
@@ -207,7 +227,7 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
 
   void looked(const Vertex<D>& center, const Observation<D>& o, double radius) override {
     const Box<D> area = area_of(center, o.reach);
-    if (is_inside(area)) return;
+    if (holds(area)) return;
     Look<D> look{center.p, radius, turn_of(engine_.call(o.call))};
     make_room(looks_, crossing_.size() + 1);
     crossing_.emplace(engine_.arena().handle_of(&o), std::pair{look, area});
@@ -384,18 +404,15 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     }
     return area;
   }
-  [[nodiscard]] bool is_inside(const Box<D>& area) const noexcept {
-    return all_.owns(self_, area.lo) && all_.owns(self_, area.hi);
-  }
 
   sac::Engine& engine_;
   const Territories<D>& all_;
   std::size_t self_;
   double side_;
+  WholeInput<D> whole_;
   std::uint8_t id_;
   const VertexPool<D>* pool_ = nullptr;
-  const VertexPool<D>* ends_ = nullptr;
-  std::uint64_t quadtree_ = 0, stars_ = 0;
+  std::uint64_t fills_ = 0, quadtree_ = 0, stars_ = 0;
   std::unordered_map<sac::Handle, std::pair<Look<D>, Box<D>>> crossing_;
   std::vector<LookEvent> looks_;
   std::multiset<Birth<D>> born_;  // beyond the territory

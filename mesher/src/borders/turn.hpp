@@ -15,7 +15,7 @@ namespace mesher::detail {
 inline constexpr sac::KeyWidths kKeyWidths{.bucket = 26, .phase = 2, .colour = 4};
 
 /// The agendas of the program, in their order.
-enum class Stage : std::uint8_t { quadtree, steiner, stars };
+enum class Stage : std::uint8_t { fill, quadtree, steiner, stars };
 
 /// `p`: of ComputeNN and Complete, the place of the vertex; calls of one rank and order run in the
 /// order of these.

@@ -21,7 +21,8 @@ const Options<D>& tileable(const Options<D>& options) {
   const StagedLines lines;
   const StagedPolygons polygons;
   Edits<D> edits{PointEdits<D>(2), lines, polygons};
-  if (may_be_tiled(several, edits)) return options;
+  const bool limited = LimitsOf<D>(options, mesh_box(options)).any();
+  if (!limited && may_be_tiled(several, edits)) return options;
   throw Error(ErrorCode::bad_option,
               "on several processes there are no limits of size, no min_dihedral and no rule but "
               "radius-edge");

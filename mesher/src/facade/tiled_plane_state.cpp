@@ -11,6 +11,7 @@
 #include "program/meter.hpp"
 #include "program/world_impl.hpp"
 #include "sets/report_difference.hpp"
+#include "sizes/fill_places.hpp"
 #include "tiles/on_threads.hpp"
 
 namespace mesher::detail {
@@ -24,26 +25,31 @@ struct SplitAll {
 };
 inline constexpr SplitAll split_all{};
 
-// Calls act(); what tiles say of errors is not what one thread would.
-template <class Act>
-void in_tiles(Act&& act) {
-  try {
-    act();
-  } catch (const Error&) {
-    throw NotInTiles();
-  }
-}
-
 template <class T>
 std::optional<T>& at(std::vector<std::optional<T>>& all, std::uint32_t handle) {
   if (handle >= all.size()) all.resize(handle + std::size_t{1});
   return all[handle];
 }
 
+// While it lives, several threads may look for features.
+class HeldPoints {
+ public:
+  explicit HeldPoints(Features<sac::Scope, 2>& features) : features_(features) {
+    features_.hold(true);
+  }
+  ~HeldPoints() { features_.hold(false); }
+  HeldPoints(const HeldPoints&) = delete;
+  HeldPoints& operator=(const HeldPoints&) = delete;
+
+ private:
+  Features<sac::Scope, 2>& features_;
+};
+
 }  // namespace
 
 TiledPlaneState::TiledPlaneState(const Options<2>& options)
     : PlaneState(options), options_(options) {
+  if (world_->limits.any()) retract_cells(*world_);
   world_->locates = false;
 }
 
@@ -51,7 +57,7 @@ TiledPlaneState::TiledPlaneState(const Options<2>& options)
 
 std::optional<TileMesher<2>::Located> TiledPlaneState::located(const Vertex<2>& v) const {
   if (v.boundary || !world_->features.has(v)) return std::nullopt;
-  return Located{v.level, v.feature ? Role() : vertices().role(v)};
+  return Located(v.level, world_->limits.pitch(v.p), v.feature ? Role() : vertices().role(v));
 }
 
 // Of all points, by parts of the pool.
@@ -71,35 +77,45 @@ auto TiledPlaneState::build(const Tiles::Ask& ask) -> std::unique_ptr<Tiles> {
   pool().for_each([&](const Vertex<2>& v) {
     if (!v.boundary && world_->features.has(v)) places.push_back(v.p);
   });
-  auto tiles = std::make_unique<Tiles>(options_, box_, places, threads, threads, alone_, &pool());
+  places = places_of_work(std::move(places), world_->limits, box_, options_.domain);
+  const WholeInput<2> whole{&pool(), &world_->features.tree()};
+  auto tiles = std::make_unique<Tiles>(options_, box_, places, threads, threads, alone_, whole);
   Tiles::Edits by_tile(tiles->size());
   told_points_.assign(pool().end_of_handles(), std::nullopt);
   pool().for_each([&](const Vertex<2>& v) {
     const auto is = told_points_[v.self] = located(v);
     if (is) by_tile[*tiles->own_tile(v.p)].push_back({v.p, std::nullopt, is});
   });
-  const auto lines = std::make_shared<LineOrders>();
+  const auto common = std::make_shared<CommonOrders<2>>();
+  LineOrders& lines = common->lines;
   auto& segments = world_->segments;
   told_zones_.assign(segments.pool().last() + std::size_t{1}, std::nullopt);
   segments.pool().for_each([&](const Segment& s) {
     if (!s.alive) return;
     const Zones zones = segments.zones(s);
     told_zones_[s.self] = zones;
-    lines->segments.push_back({s.self, s.a, s.b, std::nullopt, zones});
+    lines.segments.push_back({s.self, s.a, s.b, std::nullopt, zones});
   });
-  world_->leaves.for_each([&](const Leaf& leaf) { lines->leaves.push_back({leaf.piece, true}); });
-  tiles->first_run(by_tile, ask, lines);
+  world_->leaves.for_each([&](const Leaf& leaf) { lines.leaves.push_back({leaf.piece, true}); });
+  const HeldPoints held(world_->features);
+  tiles->first_run(by_tile, ask, common);
   return tiles;
 }
 
 // What an update has changed, before it is committed here.
-void TiledPlaneState::find_news(News& news) {
+void TiledPlaneState::find_news(const Edits<2>& edits, News& news) {
   world_->features.require_apart();
   news.by_tile.resize(tiles_->size());
+  if (edits.limits) {
+    const auto& [is, where] = *edits.limits;
+    news.common.limits = CommonOrders<2>::LimitsChange{options_, is, where};
+  }
   find_points(news);
   find_lines(news);
 }
 
+// Those that have come or gone, or are crowded otherwise, and those where limits are others: all
+// have been touched.
 void TiledPlaneState::find_points(News& news) {
   for (const VertexHandle h : vertices().log().touched) {
     const Vertex<2>& v = pool()[h];
@@ -108,6 +124,7 @@ void TiledPlaneState::find_points(News& news) {
     if (is == told) continue;
     news.by_tile[*tiles_->own_tile(v.p)].push_back({v.p, told, is});
     news.points.emplace_back(h, told);
+    if (is.has_value() != told.has_value()) news.common.features.push_back(v.p);
     told = is;
   }
 }
@@ -119,13 +136,13 @@ void TiledPlaneState::find_lines(News& news) {
     if (s.alive) is = segments.zones(s);
     std::optional<Zones>& told = at(told_zones_, s.self);
     if (is == told) return;
-    news.lines.segments.push_back({s.self, s.a, s.b, told, is});
+    news.common.lines.segments.push_back({s.self, s.a, s.b, told, is});
     news.zones.emplace_back(s.self, told);
     told = is;
   });
   world_->leaves.for_each_changed([&](const Leaf& leaf) {
     const bool is = world_->leaves.is_leaf(leaf);
-    if (is != leaf.committed) news.lines.leaves.push_back({leaf.piece, is});
+    if (is != leaf.committed) news.common.lines.leaves.push_back({leaf.piece, is});
   });
 }
 
@@ -176,6 +193,8 @@ Change<2> TiledPlaneState::propagate(const Edits<2>& edits, const RunControl& co
   Change<2> change;
   std::optional<Growth<2>> growth;  // before `accept` makes more of it
   News news;
+  Options<2> options = edits.limits ? edits.limits->options : options_;
+  std::shared_ptr<const CommonOrders<2>> common;
   bool is_judged = false;  // what is thrown then is the caller's
   const std::uint64_t before = tiles_->calls();
   const Tiles::Ask ask = [&](Phase phase, std::uint64_t calls) {
@@ -192,9 +211,12 @@ Change<2> TiledPlaneState::propagate(const Edits<2>& edits, const RunControl& co
   const std::function<void()> run_tiles = [&] {  // while all can be undone here
     make_room();
     prepare_names();
-    find_news(news);
-    const auto lines = news.lines.is_empty() ? nullptr : std::make_shared<LineOrders>(news.lines);
-    tiles_->update(news.by_tile, ask, last, lines);
+    find_news(edits, news);
+    if (!news.common.is_empty()) {
+      common = std::make_shared<const CommonOrders<2>>(std::move(news.common));
+    }
+    const HeldPoints held(world_->features);
+    tiles_->update(news.by_tile, ask, last, common);
   };
   ask_ = asking(control, Phase::update, &fail_stopped);
   make(edits);
@@ -204,10 +226,12 @@ Change<2> TiledPlaneState::propagate(const Edits<2>& edits, const RunControl& co
     take_back(news);
     commit();
     forget();
+    const HeldPoints held(world_->features);
+    tiles_->take_back(news.by_tile, common);
     if (tiles_->is_broken()) tiles_ = build({});  // the mesh is a function of what is there
-    if (is_judged) throw;
-    in_tiles([] { throw; });
+    in_tiles([] { throw; }, !is_judged);
   }
+  options_ = std::move(options);
   rename(edits.points);
   commit_names();
   forget();

@@ -10,12 +10,9 @@
 #include <vector>
 
 #include "facade/plane_state.hpp"
-#include "tiles/tiled_mesher.hpp"
+#include "facade/tiled_state.hpp"
 
 namespace mesher::detail {
-
-/// What is thrown where tiles have failed, or cannot tell: one thread does it, or says why not.
-struct NotInTiles {};
 
 class TiledPlaneState final : public PlaneState {
  public:
@@ -26,9 +23,9 @@ class TiledPlaneState final : public PlaneState {
   Change<2> first_run(Edits<2> edits, const RunControl& control, const Accept& accept) override;
   Change<2> propagate(const Edits<2>& edits, const RunControl& control,
                       const Accept& accept) override;
-  /// Points and lines.
+  /// Points and lines, and limits of size in a part of the domain.
   [[nodiscard]] bool takes(const Edits<2>& edits) const noexcept override {
-    return !edits.polygons.has_edits() && !edits.limits;
+    return !edits.polygons.has_edits() && !changes_all_limits(edits);
   }
 
   [[nodiscard]] Mesh<2> mesh() const override;
@@ -46,7 +43,7 @@ class TiledPlaneState final : public PlaneState {
   // What tiles are told.
   struct News {
     Tiles::Edits by_tile;
-    LineOrders lines;
+    CommonOrders<2> common;
     // As they were told before, so that it can be taken back.
     std::vector<std::pair<VertexHandle, std::optional<Located>>> points;
     std::vector<std::pair<SegmentHandle, std::optional<Zones>>> zones;
@@ -55,7 +52,7 @@ class TiledPlaneState final : public PlaneState {
   void find_levels(std::size_t threads);
   [[nodiscard]] std::unique_ptr<Tiles> build(const Tiles::Ask& ask);
   [[nodiscard]] std::optional<Located> located(const Vertex<2>& v) const;
-  void find_news(News& news);
+  void find_news(const Edits<2>& edits, News& news);
   void find_points(News& news);
   void find_lines(News& news);
   void take_back(const News& news) noexcept;

@@ -5,9 +5,10 @@
 
 #include "facade/tile_changes.hpp"
 #include "facade/whole_change.hpp"
+#include "geometry/box.hpp"
 #include "program/meter.hpp"
 #include "rules/mesh_box.hpp"
-#include "sizes/limits_of.hpp"
+#include "sizes/fill_places.hpp"
 #include "tiles/on_threads.hpp"
 
 namespace mesher::detail {
@@ -20,16 +21,24 @@ bool has_slivers(const Options<D>& options) {
   return false;
 }
 
-}  // namespace
-
-namespace {
-
 template <int D>
 bool may_have_points_tiled(const Options<D>& options, const Edits<D>& edits) {
   return options.threads > 1 && options.rule == Rule::radius_edge && edits.points.size() > 1 &&
-         !edits.polygons.has_edits() && !options.record_weights && !has_slivers(options) &&
-         !LimitsOf<D>(options, mesh_box(options)).any();
+         !edits.polygons.has_edits() && !options.record_weights && !has_slivers(options);
 }
+
+// While it lives, several threads may look for features.
+template <int D>
+class HeldFeatures {
+ public:
+  explicit HeldFeatures(FeatureTree<D>& features) : features_(features) { features_.hold(true); }
+  ~HeldFeatures() { features_.hold(false); }
+  HeldFeatures(const HeldFeatures&) = delete;
+  HeldFeatures& operator=(const HeldFeatures&) = delete;
+
+ private:
+  FeatureTree<D>& features_;
+};
 
 }  // namespace
 
@@ -43,12 +52,28 @@ bool may_have_lines_tiled(const Options<2>& options, const Edits<2>& edits) {
 }
 
 template <int D>
+bool changes_all_limits(const Edits<D>& edits) noexcept {
+  if (!edits.limits) return false;
+  const auto& [options, where] = *edits.limits;
+  return std::any_of(where.begin(), where.end(),
+                     [&](const Box<D>& box) { return contains(box, options.domain); });
+}
+
+template <int D>
 TiledState<D>::TiledState(const Options<D>& options)
-    : options_(options), peers_(alone_), box_(mesh_box(options)), features_(box_, points_) {}
+    : options_(options),
+      peers_(alone_),
+      box_(mesh_box(options)),
+      features_(box_, points_),
+      limits_(options, box_) {}
 
 template <int D>
 TiledState<D>::TiledState(const Options<D>& options, Peers& peers)
-    : options_(options), peers_(peers), box_(mesh_box(options)), features_(box_, points_) {}
+    : options_(options),
+      peers_(peers),
+      box_(mesh_box(options)),
+      features_(box_, points_),
+      limits_(options, box_) {}
 
 // --- Points ----------------------------------------------------------------------------------
 
@@ -111,16 +136,18 @@ auto TiledState<D>::build(const typename TiledMesher<D>::Ask& ask)
     std::vector<Point<D>> places;
     places.reserve(ids_.size());
     points_.for_each([&](const Vertex<D>& v) { places.push_back(v.p); });
+    places = places_of_work(std::move(places), limits_, box_, options_.domain);
     tiles = std::make_unique<TiledMesher<D>>(options_, box_, places, threads * peers_.size(),
-                                             threads, peers_);
+                                             threads, peers_, WholeInput<D>{nullptr, &features_});
     by_tile.resize(tiles->size());
     find_levels(threads);
     points_.for_each([&](Vertex<D>& v) {
       names_[v.self].level = v.level;
       const auto tile = tiles->own_tile(v.p);
-      if (tile) by_tile[*tile].push_back({v.p, std::nullopt, int{v.level}});
+      if (tile) by_tile[*tile].push_back({v.p, std::nullopt, Located(v.level, limits_.pitch(v.p))});
     });
   });
+  const HeldFeatures held(features_);
   tiles->first_run(by_tile, ask);
   return tiles;
 }
@@ -140,7 +167,7 @@ Change<D> TiledState<D>::first_run(Edits<D> edits, const RunControl& control,
       return report(control, {phase, calls, of});
     };
   });
-  tiles_ = build(ask);
+  in_tiles([&] { tiles_ = build(ask); }, limits_.any());
   Change<D> change;
   together(peers_, [&] {
     change = whole_change(mesh());
@@ -169,7 +196,16 @@ void TiledState<D>::drop_others(Change<D>& change) const {
 
 template <int D>
 bool TiledState<D>::takes(const Edits<D>& edits) const noexcept {
-  return !edits.lines.has_edits() && !edits.polygons.has_edits() && !edits.limits;
+  return !edits.lines.has_edits() && !edits.polygons.has_edits() && !changes_all_limits(edits);
+}
+
+// Nothing has changed yet.
+template <int D>
+void TiledState<D>::begin_limits(const Edits<D>& edits, Moves& moves) {
+  if (!edits.limits) return;
+  const auto& [is, where] = *edits.limits;
+  moves.limits.emplace(is, box_);
+  moves.common.limits = typename CommonOrders<D>::LimitsChange{options_, is, where};
 }
 
 // Changes the set of points, and says what that is to the tiles.
@@ -178,8 +214,17 @@ auto TiledState<D>::make(const PointEdits<D>& edits, Moves& moves) -> TileEdits 
   std::vector<VertexHandle> changed;
   const auto note = [&](const Vertex<D>& f) { changed.push_back(f.self); };
   TileEdits by_tile(tiles_->size());
-  const auto tell = [&](const Point<D>& p, std::optional<int> was, std::optional<int> is) {
+  const LimitsOf<D>& limits = moves.limits ? *moves.limits : limits_;
+  const bool any_limits = limits.any() || limits_.any();
+  const auto was_at = [&](VertexHandle h) -> std::optional<Located> {
+    if (!names_[h].level) return std::nullopt;
+    return Located(*names_[h].level, limits_.pitch(points_[h].p));
+  };
+  const auto tell = [&](const Point<D>& p, std::optional<Located> was, std::optional<Located> is) {
     if (const auto tile = tiles_->own_tile(p)) by_tile[*tile].push_back({p, was, is});
+  };
+  const auto note_place = [&](const Point<D>& p) {
+    if (any_limits) moves.common.features.push_back(p);
   };
   moves.gone.reserve(edits.size());
   moves.come.reserve(edits.size());
@@ -190,7 +235,8 @@ auto TiledState<D>::make(const PointEdits<D>& edits, Moves& moves) -> TileEdits 
   for (const auto& edit : edits) {
     if (!edit.was) continue;
     const VertexHandle h = ids_.at(edit.id);
-    tell(points_[h].p, names_[h].level, std::nullopt);
+    tell(points_[h].p, was_at(h), std::nullopt);
+    note_place(points_[h].p);
     make_room();
     features_.erase(points_[h], note);
     moves.gone.push_back(ids_.extract(edit.id));
@@ -208,6 +254,12 @@ auto TiledState<D>::make(const PointEdits<D>& edits, Moves& moves) -> TileEdits 
     }
     moves.come.emplace_back(edit.id, h);
     changed.push_back(h);
+    note_place(points_[h].p);
+  }
+  if (moves.limits) {
+    for (const Box<D>& box : moves.common.limits->where) {
+      features_.visit_in(box, [&](const Vertex<D>& v) { return changed.push_back(v.self), false; });
+    }
   }
   std::sort(changed.begin(), changed.end());
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
@@ -216,8 +268,9 @@ auto TiledState<D>::make(const PointEdits<D>& edits, Moves& moves) -> TileEdits 
     const auto it = ids_.find(names_[h].id);
     if (it == ids_.end() || it->second != h) continue;  // gone
     const Vertex<D>& v = points_[h];
-    if (names_[h].level == v.level) continue;
-    tell(v.p, names_[h].level, int{v.level});
+    const std::optional<Located> was = was_at(h), is = Located(v.level, limits.pitch(v.p));
+    if (was == is) continue;
+    tell(v.p, was, is);
     moves.levels.emplace_back(h, std::exchange(names_[h].level, int{v.level}));
   }
   return by_tile;
@@ -248,6 +301,9 @@ Change<D> TiledState<D>::propagate(const Edits<D>& edits, const RunControl& cont
   typename TiledMesher<D>::Ask ask;
   std::function<void(TileChanges&)> last;
   TileEdits by_tile;
+  std::shared_ptr<const CommonOrders<D>> common;
+  Options<D> options = edits.limits ? edits.limits->options : options_;
+  bool is_judged = false;  // what is thrown then is the caller's
   try {
     together(peers_, [&] {
       ask = [&](Phase phase, std::uint64_t calls) { return report(control, {phase, calls, 0}); };
@@ -255,17 +311,30 @@ Change<D> TiledState<D>::propagate(const Edits<D>& edits, const RunControl& cont
         together(peers_, [&] { change = change_of<D>(changes); });
         growth.emplace(change);
         change.calls.executed = tiles_->calls() - before;
+        is_judged = true;
         if (accept) accept(change);
       };
+      begin_limits(edits, moves);
       by_tile = make(edits.points, moves);
+      if (!moves.common.is_empty()) {
+        common = std::make_shared<const CommonOrders<D>>(std::move(moves.common));
+      }
     });
-    tiles_->update(by_tile, ask, last);
+    const HeldFeatures held(features_);
+    tiles_->update(by_tile, ask, last, common);
   } catch (...) {
+    const bool limited = limits_.any() || (moves.limits && moves.limits->any());
     together(peers_, [&] { take_back(std::move(moves)); });
+    const HeldFeatures held(features_);
+    tiles_->take_back(by_tile, common);
     if (tiles_->is_broken()) tiles_ = build({});  // the mesh is a function of the points
-    throw;
+    in_tiles([] { throw; }, limited && !is_judged);
   }
   for (const auto& node : moves.gone) points_.release(points_[node.mapped()]);
+  if (moves.limits) {
+    limits_ = std::move(*moves.limits);
+    options_ = std::move(options);
+  }
   growth->add_to(stats_);
   return change;
 }
@@ -301,9 +370,11 @@ void TiledState<D>::check_invariants() const {
 }
 
 template bool may_be_tiled(const Options<2>&, const Edits<2>&);
+template bool changes_all_limits(const Edits<2>&) noexcept;
 template class TiledState<2>;
 #ifndef MESHER_PLANE_ONLY
 template bool may_be_tiled(const Options<3>&, const Edits<3>&);
+template bool changes_all_limits(const Edits<3>&) noexcept;
 template class TiledState<3>;
 #endif
 

@@ -1,4 +1,5 @@
-// The state of a mesher of points in tiles: which point is whose, how crowded each is, the tiles.
+// The state of a mesher of points in tiles: which point is whose, how crowded each is, the limits
+// of size, the tiles.
 //
 // Where several processes have tiles of one mesh, each has such a state with all points, but its
 // own tiles alone, and all do the same: what is asked of the mesh is then about the part of this
@@ -16,11 +17,28 @@
 
 namespace mesher::detail {
 
+/// What is thrown where tiles have failed, or cannot tell: one thread does it, or says why not.
+struct NotInTiles {};
+/// Calls act(); what tiles say of errors `is_theirs`, and not what one thread would.
+template <class Act>
+void in_tiles(Act&& act, bool is_theirs = true) {
+  try {
+    act();
+  } catch (const Error&) {
+    if (!is_theirs) throw;
+    throw NotInTiles();
+  }
+}
+
 /// Whether a mesher that begins with these edits may be in tiles.
 template <int D>
 [[nodiscard]] bool may_be_tiled(const Options<D>& options, const Edits<D>& edits);
 /// The same with lines in the plane (tiled_plane_state.hpp).
 [[nodiscard]] bool may_have_lines_tiled(const Options<2>& options, const Edits<2>& edits);
+/// Whether tiles had better begin anew: the limits of size are others everywhere. (To follow that
+/// takes several times a first run.)
+template <int D>
+[[nodiscard]] bool changes_all_limits(const Edits<D>& edits) noexcept;
 
 template <int D>
 class TiledState final : public AnyState<D> {
@@ -33,8 +51,9 @@ class TiledState final : public AnyState<D> {
   /// With options.threads tiles in each process. `peers` must outlive it. Throws: likewise.
   TiledState(const Options<D>& options, Peers& peers);
 
+  /// Where there are limits of size, this and propagate() throw NotInTiles, too.
   Change<D> first_run(Edits<D> edits, const RunControl& control, const Accept& accept) override;
-  /// Points alone.
+  /// Points, and limits of size in a part of the domain.
   [[nodiscard]] bool takes(const Edits<D>& edits) const noexcept override;
   Change<D> propagate(const Edits<D>& edits, const RunControl& control,
                       const Accept& accept) override;
@@ -60,23 +79,27 @@ class TiledState final : public AnyState<D> {
   using Ids = std::unordered_map<PointId, VertexHandle>;
   using TileEdits = typename TiledMesher<D>::Edits;
   using TileChanges = typename TiledMesher<D>::Changes;
+  using Located = typename TileMesher<D>::Located;
 
   // A point of the input.
   struct Name {
     PointId id{};
     std::optional<int> level;  // as its tile has been told; nothing: it has not
   };
-  // What an update does here, so that it can be taken back.
+  // What an update does here, so that it can be taken back, and what all tiles are told of it.
   struct Moves {
     std::vector<typename Ids::node_type> gone;
     std::vector<std::pair<PointId, VertexHandle>> come;
     std::vector<std::pair<VertexHandle, std::optional<int>>> levels;  // as they were
+    std::optional<LimitsOf<D>> limits;                                // nothing: they stay
+    CommonOrders<D> common;
   };
 
   void drop_others(Change<D>& change) const;
   [[nodiscard]] std::unique_ptr<TiledMesher<D>> build(const typename TiledMesher<D>::Ask& ask);
   void find_levels(std::size_t threads);
   VertexHandle add_point(PointId id, const Point<D>& p);
+  void begin_limits(const Edits<D>& edits, Moves& moves);
   [[nodiscard]] TileEdits make(const PointEdits<D>& edits, Moves& moves);
   void take_back(Moves moves);
 
@@ -86,6 +109,7 @@ class TiledState final : public AnyState<D> {
   MeshBox<D> box_;
   VertexPool<D> points_;
   FeatureTree<D> features_;
+  LimitsOf<D> limits_;
   Ids ids_;
   std::vector<Name> names_;  // by handle
   std::unique_ptr<TiledMesher<D>> tiles_;

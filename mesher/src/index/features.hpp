@@ -125,6 +125,8 @@ class Features<sac::Scope, D> : public sac::Structure {
   void find_level(Vertex<D>& v, typename FeatureTree<D>::Path& path) const {
     v.level = static_cast<std::int16_t>(tree_.crowded_level(v, path));
   }
+  /// All features' points. Requires: no two are in one finest cell.
+  [[nodiscard]] const FeatureTree<D>& tree() const noexcept { return tree_; }
   /// Whether v is a feature's point.
   [[nodiscard]] bool has(const Vertex<D>& v) const {
     return v.feature || splits_.find(v.self) != splits_.end();

@@ -35,6 +35,11 @@ bool is_in_leaf(S&, World<S, 3>&, const Point<3>&) {
   return false;
 }
 
+/// Of a vertex amid the lattice: who is around it in the end is not farther than this, in pitches,
+/// since its simplices on the lattice have no vertex in their circumspheres.
+template <int D>
+inline constexpr double kAmidReach = 2 * Lattice<D>::kCircumradius*(1 + 0x1p-20);
+
 // if c is large: split it, enqueue its parts. Else for each candidate q in c: if no feature is near
 // and no leaf's ball has q, add q to the vertices; enqueue it, unless its triangles will do
 template <class S, int D>
@@ -46,10 +51,12 @@ void Fill::operator()(S& s, Cell<D> c) const {
   s.weigh(candidates.size());
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const auto& q = candidates[i];
-    if (rooms[i] == Room::none || is_in_leaf(s, w, q.place)) continue;
+    if (!w.owns(q.place) || rooms[i] == Room::none || is_in_leaf(s, w, q.place)) continue;
     const VertexRef<D> v = w.vertices.insert_early(s, q.place);
     w.require_room(s);
-    if (!q.amid || rooms[i] != Room::ample) w.post_nearest_from(s, v, kClear * q.pitch);
+    const bool does = q.amid && rooms[i] == Room::ample;
+    does ? w.post_border_star(s, v, kAmidReach<D> * q.pitch)
+         : w.post_nearest_from(s, v, kClear * q.pitch);
     w.post_star(s, v);
   }
 }

@@ -11,7 +11,8 @@
 
 namespace mesher::detail {
 
-/// fill() of the box, asked for from the outside if there are limits.
+/// fill() of the box, asked for from the outside if there are limits; not in a world that only
+/// splits segments.
 template <class AnyWorld>
 void post_cells(AnyWorld& w);
 template <class AnyWorld>

@@ -35,10 +35,12 @@ class Obstacles<S, 2> {
   /// No room is a matter of features farther than this, in pitches.
   static constexpr double kReach = kUndisturbed;
 
-  explicit Obstacles(const Features<S, 2>& features) : features_(features) {}
+  /// `whole`: in a tile, the features of the whole input; null: `features` has them.
+  explicit Obstacles(const Features<S, 2>& features, const FeatureTree<2>* whole = nullptr)
+      : features_(features), whole_(whole) {}
 
   [[nodiscard]] bool any_in(const Box<2>& box) const {
-    return features_.visit_features_in(box, [](const Vertex<2>&) { return true; });
+    return visit_in(box, [](const Vertex<2>&) { return true; });
   }
   [[nodiscard]] Room room(const Point<2>& p, double pitch) const {
     if (!has_within(p, kUndisturbed * pitch)) return Room::ample;
@@ -46,12 +48,18 @@ class Obstacles<S, 2> {
   }
 
  private:
+  template <class Visit>
+  bool visit_in(const Box<2>& box, Visit&& visit) const {
+    return whole_ != nullptr ? whole_->visit_in(box, visit)
+                             : features_.visit_features_in(box, visit);
+  }
   [[nodiscard]] bool has_within(const Point<2>& p, double distance) const {
-    return features_.visit_features_in(around(p, distance), [&](const Vertex<2>& v) {
+    return visit_in(around(p, distance), [&](const Vertex<2>& v) {
       return squared_distance(v.p, p) < distance * distance;
     });
   }
   const Features<S, 2>& features_;
+  const FeatureTree<2>* whole_;
 };
 
 /// In space edges and polygons are obstacles as they are, with all of their vertices.
@@ -68,13 +76,15 @@ class Obstacles<S, 3> {
   static constexpr double kUndisturbed = 1.625;
   static constexpr double kReach = kUndisturbed * (1 + 0x1p-20);
 
-  Obstacles(const Features<S, 3>& points, FeatureStore& store) : points_(points), store_(store) {}
+  /// `whole`: in a tile, the points of the whole input; null: `points` has them.
+  Obstacles(const Features<S, 3>& points, FeatureStore& store,
+            const FeatureTree<3>* whole = nullptr)
+      : points_(points), store_(store), whole_(whole) {}
 
   [[nodiscard]] bool any_in(const Box<3>& box) const {
     const Point<3> middle = middle_of(box);
     const auto any = [](const auto&) { return true; };
-    return store_.visit_near(middle, middle, reach_of(box), any) ||
-           points_.visit_points_in(box, any);
+    return store_.visit_near(middle, middle, reach_of(box), any) || visit_points_in(box, any);
   }
   [[nodiscard]] Room room(const Point<3>& p, double pitch) const {
     if (!has_point(p, kUndisturbed * pitch) && !has_feature(p, kUndisturbed * pitch)) {
@@ -85,8 +95,12 @@ class Obstacles<S, 3> {
   }
 
  private:
+  template <class Visit>
+  bool visit_points_in(const Box<3>& box, Visit&& visit) const {
+    return whole_ != nullptr ? whole_->visit_in(box, visit) : points_.visit_points_in(box, visit);
+  }
   [[nodiscard]] bool has_point(const Point<3>& p, double distance) const {
-    return points_.visit_points_in(around(p, distance), [&](const Vertex<3>& v) {
+    return visit_points_in(around(p, distance), [&](const Vertex<3>& v) {
       return squared_distance(v.p, p) < distance * distance;
     });
   }
@@ -96,6 +110,7 @@ class Obstacles<S, 3> {
   }
   const Features<S, 3>& points_;
   FeatureStore& store_;
+  const FeatureTree<3>* whole_;
 };
 
 /// Edges are split, and pieces of polygons halved, that are longer than this many spacings where

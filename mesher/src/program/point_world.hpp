@@ -98,6 +98,8 @@ struct PointWorld {
   /// vertices beyond the territory, which are learnt of so. (Cells shrink: in any other star is no
   /// vertex that has not been met.)
   void post_border_star(S& s, VertexRef<D> v, const CellOf<D>& cell);
+  /// The same of v that is not completed: nobody farther than `reach` will be around it.
+  void post_border_star(S& s, VertexRef<D> v, double reach);
   /// Where the events of bucket b wait.
   [[nodiscard]] Agenda& steiner_at(int b) noexcept {
     if (parts.empty()) return steiner;
@@ -112,6 +114,14 @@ struct PointWorld {
   /// Whether calls about what is at p are this world's: not if it is another tile's.
   [[nodiscard]] bool owns(const Point<D>& p) const noexcept {
     return border == nullptr || border->owns(p);
+  }
+  /// Whether there may be places in the box that it owns.
+  [[nodiscard]] bool meets(const Box<D>& area) const noexcept {
+    return border == nullptr || border->meets(area);
+  }
+  /// In a tile: see WholeInput; null: what is here is all.
+  [[nodiscard]] const FeatureTree<D>* whole_features() const noexcept {
+    return border == nullptr ? nullptr : border->whole().features;
   }
   /// Whether it is for a part of the mesh, where a call may meet what will not be there in the end.
   [[nodiscard]] bool is_part() const noexcept { return border != nullptr || halo != nullptr; }

@@ -69,8 +69,11 @@ auto Surroundings<sac::Scope, D>::rooms(sac::Scope& s, const Cell<D>& c,
   return rooms;
 }
 
+// Calls visit(ask) for the answers that a feature there may change.
 template <int D>
-void Surroundings<sac::Scope, D>::changed(const FeatureExtent<D>& where) noexcept {
+template <class Visit>
+void Surroundings<sac::Scope, D>::visit_near(const FeatureExtent<D>& where,
+                                             Visit&& visit) const noexcept {
   if (asks_.size() == 0) return;
   Box<D> near = around(where.p, where.slack);
   const Box<D> end = around(where.q, where.slack);
@@ -78,8 +81,20 @@ void Surroundings<sac::Scope, D>::changed(const FeatureExtent<D>& where) noexcep
   asks_.visit_near(where.p, where.q, where.slack, [&](sac::Handle h) {
     const AskEdge& ask = at(h);
     const bool beside = is_empty(common(ask.extent, near));
-    if (!beside) engine_.doubt(engine_.call(ask.call));
+    if (!beside) visit(ask);
   });
+}
+
+template <int D>
+void Surroundings<sac::Scope, D>::changed(const FeatureExtent<D>& where) noexcept {
+  visit_near(where, [&](const AskEdge& ask) { engine_.doubt(engine_.call(ask.call)); });
+}
+
+template <int D>
+bool Surroundings<sac::Scope, D>::concerned(const Point<D>& p) const noexcept {
+  bool any = false;
+  visit_near({p, p}, [&](const AskEdge&) { any = true; });
+  return any;
 }
 
 template <int D>

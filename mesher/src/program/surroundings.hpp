@@ -49,6 +49,8 @@ class Surroundings<sac::Scope, D> final : public sac::Structure, public FeatureL
   /// A feature has come, or gone.
   void feature_changed(const Point<D>& p) noexcept override { changed({p, p}); }
   void changed(const FeatureExtent<D>& where) noexcept;
+  /// Whether an answer may be another one if there is a feature at p, or none any more.
+  [[nodiscard]] bool concerned(const Point<D>& p) const noexcept;
 
   void retract(sac::Call& call, sac::Edge& edge) noexcept override;
   [[nodiscard]] bool unchanged(sac::Call& call, sac::Edge& edge) override;
@@ -72,6 +74,8 @@ class Surroundings<sac::Scope, D> final : public sac::Structure, public FeatureL
   [[nodiscard]] AskEdge& at(sac::Handle h) const noexcept {
     return *engine_.arena().at<AskEdge>(h);
   }
+  template <class Visit>
+  void visit_near(const FeatureExtent<D>& where, Visit&& visit) const noexcept;
   [[nodiscard]] std::uint64_t answer_now(const AskEdge& ask) const;
 
   sac::Engine& engine_;

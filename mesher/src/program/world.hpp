@@ -60,7 +60,7 @@ struct World<S, 2> : PointWorld<S, 2> {
         segments(make_segments(*this, host)),
         leaves(vertices, segments.pool(), host),
         plans(box, limits, host),
-        surroundings(box, limits, Obstacles<S, 2>(features), host),
+        surroundings(box, limits, Obstacles<S, 2>(features, this->whole_features()), host),
         splits(host.make_agenda("segments", kKeyWidths)),
         fills(host.make_agenda("fill", kKeyWidths)) {
     host.set_environment(this);
@@ -104,7 +104,7 @@ struct World<S, 2> : PointWorld<S, 2> {
  private:
   static auto make_segments(Base& w, sac::Engine& engine) {
     return InputSegments<sac::Scope>(w.box, w.vertices, w.features, engine,
-                                     w.border != nullptr ? w.border->ends() : nullptr);
+                                     w.border != nullptr ? w.border->whole().ends : nullptr);
   }
   static auto make_segments(Base& w, sac::PlainScope& s) {
     return InputSegments<sac::PlainScope>(w.box, w.vertices, w.features, s);

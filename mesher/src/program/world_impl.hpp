@@ -36,11 +36,13 @@ void PointWorld<S, D>::add_boundary() {
 template <class AnyWorld>
 void post_cells(AnyWorld& w) {
   using Whole = typename AnyWorld::AnyCell;
+  if (!w.locates) return;
   w.fills.template post_from_outside<fill>(fill_key(Whole()), Whole());
   w.post_edges();
 }
 template <class AnyWorld>
 void retract_cells(AnyWorld& w) {
+  if (!w.locates) return;
   w.fills.template retract_from_outside<fill>(typename AnyWorld::AnyCell());
   w.retract_edges();
 }
@@ -49,6 +51,7 @@ template <class S, class AnyWorld, int D>
 void post_parts(S& s, AnyWorld& w, const Cell<D>& c) {
   w.quadtree.template post<split>(s, split_key(c), c);
   MeshBox<D>::for_each_child(c, [&](const Cell<D>& part) {
+    if (!w.meets(w.box.box_of(part))) return;
     if constexpr (!S::kTraced) w.plain.tick();
     w.fills.template post<fill>(s, fill_key(part), part);
   });
@@ -139,6 +142,14 @@ void PointWorld<S, D>::post_border_star(S& s, VertexRef<D> v, const CellOf<D>& c
   if constexpr (S::kTraced && D <= 3) {
     if (border == nullptr) return;
     if (vertices.is_whole(cell) && border->holds(*v, vertices.concern(cell))) return;
+    stars.template post<star>(s, star_key(box.fixed(v->p)), v);
+  }
+}
+
+template <class S, int D>
+void PointWorld<S, D>::post_border_star(S& s, VertexRef<D> v, double reach) {
+  if constexpr (S::kTraced && D <= 3) {
+    if (border == nullptr || border->holds(around(v->p, reach))) return;
     stars.template post<star>(s, star_key(box.fixed(v->p)), v);
   }
 }

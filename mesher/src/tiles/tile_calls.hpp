@@ -1,6 +1,7 @@
 // The calls of a tile that one mesher for all has not.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "program/build_qt.hpp"
@@ -9,24 +10,25 @@
 
 namespace mesher::detail {
 
-/// As Locate, of a point whose deepest crowded level is known: all tiles' points crowd it.
+/// As Locate, of a point whose deepest crowded level is known, since all tiles' points crowd it;
+/// and the pitch of the lattice there.
 template <int D>
-void locate_at(sac::Scope& s, VertexRef<D> p, int level, const Role& role) {
+void locate_at(sac::Scope& s, VertexRef<D> p, int level, double pitch, const Role& role) {
   auto& w = s.template environment<World<sac::Scope, D>>();
   w.vertices.insert(s, p, role);
   if (level >= kCoarser) {
     const Cell<D> c = MeshBox<D>::cell(w.box.fixed(p->p), level - kCoarser);
     w.quadtree.template post<split>(s, split_key(c), c);
   }
-  w.post_nearest(s, p, level + 1);
+  w.post_nearest_from(s, p, std::min(w.box.cell_side(level + 1) / 2, kClear * pitch));
   w.post_star(s, p);
 }
 
 struct LocateKnown {
   static constexpr std::string_view kName = "locate";
   template <int D>
-  void operator()(sac::Scope& s, VertexRef<D> p, int level) const {
-    locate_at(s, p, level, Role());
+  void operator()(sac::Scope& s, VertexRef<D> p, int level, double pitch) const {
+    locate_at(s, p, level, pitch, Role());
   }
 };
 inline constexpr LocateKnown locate_known{};
@@ -35,9 +37,9 @@ inline constexpr LocateKnown locate_known{};
 struct LocateOnSegment {
   static constexpr std::string_view kName = "locate_on_segment";
   template <int D>
-  void operator()(sac::Scope& s, VertexRef<D> p, int level, std::uint32_t segment, double distance,
-                  bool from_b) const {
-    locate_at(s, p, level, Role{Label(distance, from_b), segment});
+  void operator()(sac::Scope& s, VertexRef<D> p, int level, double pitch, std::uint32_t segment,
+                  double distance, bool from_b) const {
+    locate_at(s, p, level, pitch, Role{Label(distance, from_b), segment});
   }
 };
 inline constexpr LocateOnSegment locate_on_segment{};
@@ -108,6 +110,7 @@ struct RunQuadtree {
   void operator()(sac::Scope& s) const {
     auto& w = s.template environment<World<sac::Scope, D>>();
     if constexpr (D == 2) w.splits.drain(s);
+    w.fills.drain(s);
     w.quadtree.drain(s);
   }
 };

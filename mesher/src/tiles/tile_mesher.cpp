@@ -10,6 +10,12 @@
 
 namespace mesher::detail {
 
+namespace {
+
+constexpr std::size_t kAnyRecords = ~std::size_t{0};  // all tiles together have a limit
+
+}  // namespace
+
 LineOrders LineOrders::inverse() const {
   LineOrders all;
   for (auto it = segments.rbegin(); it != segments.rend(); ++it) {
@@ -21,32 +27,27 @@ LineOrders LineOrders::inverse() const {
   return all;
 }
 
-namespace {
-
 template <int D>
-std::unique_ptr<TileBorder<D>> make_border(sac::Engine& engine, const Territories<D>& all,
-                                           std::size_t self, double side,
-                                           const VertexPool<D>* ends) {
-  auto border = std::make_unique<TileBorder<D>>(engine, all, self, side);
-  border->set_ends(ends);
-  return border;
+CommonOrders<D> CommonOrders<D>::inverse() const {
+  CommonOrders all{lines.inverse(), {}, features};
+  if (limits) all.limits = LimitsChange{limits->is, limits->was, limits->where};
+  return all;
 }
-
-}  // namespace
 
 template <int D>
 TileMesher<D>::TileMesher(const Options<D>& options, const MeshBox<D>& box,
-                          const Territories<D>& all, std::size_t self, const VertexPool<D>* ends)
+                          const Territories<D>& all, std::size_t self, const WholeInput<D>& whole)
     : all_(all),
       self_(self),
       engine_(std::make_unique<sac::Engine>()),
-      border_(make_border<D>(*engine_, all, self, box.side, ends)),
+      border_(std::make_unique<TileBorder<D>>(*engine_, all, self, box.side, whole)),
       world_(std::make_unique<World<sac::Scope, D>>(options, box, *engine_, border_.get())),
       asked_(all.size()),
       askers_(all.size()) {
-  border_->attach(world_->vertices.pool(), world_->quadtree.number(), world_->stars.number());
+  border_->attach(world_->vertices.pool(), world_->fills.number(), world_->quadtree.number(),
+                  world_->stars.number());
   world_->vertices.set_listener(border_.get());
-  world_->most_records = ~std::size_t{0};  // all tiles together have a limit
+  world_->most_records = kAnyRecords;
   world_->vertices.pool().for_each(
       [&](const Vertex<D>& v) { own_vertices_ += border_->owns(v.p); });
 }
@@ -60,6 +61,7 @@ TileMesher<D>::~TileMesher() {
 
 template <int D>
 sac::Agenda& TileMesher<D>::agenda(const Turn<D>& turn) noexcept {
+  if (turn.stage == Stage::fill) return world_->fills;
   if (turn.stage == Stage::quadtree) return world_->quadtree;
   if (turn.stage == Stage::stars) return world_->stars;
   return world_->steiner_at(turn.key(kKeyWidths).bucket);
@@ -68,7 +70,8 @@ sac::Agenda& TileMesher<D>::agenda(const Turn<D>& turn) noexcept {
 template <int D>
 void TileMesher<D>::edit(const std::vector<Edit>& edits) {
   const auto order = [&](const Point<D>& p, const Located& located, bool begins) {
-    orders_.push_back({Order::Kind::locate, begins, p, {}, located.level, 0, 0, located.role});
+    orders_.push_back(
+        {Order::Kind::locate, begins, p, {}, located.level, 0, located.pitch, located.role});
   };
   for (const Edit& e : edits) {
     if (e.was) order(e.p, *e.was, false);
@@ -77,8 +80,22 @@ void TileMesher<D>::edit(const std::vector<Edit>& edits) {
 }
 
 template <int D>
-void TileMesher<D>::edit_lines(std::shared_ptr<const LineOrders> lines) {
-  lines_.push_back(std::move(lines));
+void TileMesher<D>::edit_common(std::shared_ptr<const CommonOrders<D>> common) {
+  for (const Point<D>& p : common->features) {
+    if (world_->surroundings.concerned(p)) features_.push_back(p);
+  }
+  if (!common->lines.is_empty() || common->limits) common_.push_back(std::move(common));
+}
+
+// What limits change is as much as is in their boxes.
+template <int D>
+std::uint64_t TileMesher<D>::orders() const noexcept {
+  constexpr std::uint64_t kMany = std::uint64_t{1} << 20;
+  std::uint64_t all = orders_.size() + features_.size();
+  for (const auto& common : common_) {
+    if (common->limits && !common->limits->where.empty()) all += kMany;
+  }
+  return all;
 }
 
 template <int D>
@@ -220,16 +237,17 @@ void TileMesher<D>::locate(const Order& order, VertexRef<D> v) {
     const auto [distance, from_b] = std::pair(role.label.distance(), role.label.from_b());
     if (order.begins) {
       world_->quadtree.template post_from_outside<locate_on_segment>(
-          locate_key(world_->box.fixed(v->p)), v, order.number, role.on, distance, from_b);
+          locate_key(world_->box.fixed(v->p)), v, order.number, order.radius, role.on, distance,
+          from_b);
     } else {
-      world_->quadtree.template retract_from_outside<locate_on_segment>(v, order.number, role.on,
-                                                                        distance, from_b);
+      world_->quadtree.template retract_from_outside<locate_on_segment>(
+          v, order.number, order.radius, role.on, distance, from_b);
     }
   } else if (order.begins) {
     world_->quadtree.template post_from_outside<locate_known>(locate_key(world_->box.fixed(v->p)),
-                                                              v, order.number);
+                                                              v, order.number, order.radius);
   } else {
-    world_->quadtree.template retract_from_outside<locate_known>(v, order.number);
+    world_->quadtree.template retract_from_outside<locate_known>(v, order.number, order.radius);
   }
 }
 
@@ -297,9 +315,22 @@ void TileMesher<D>::carry_out_in_complete(const Order& order, int bucket) {
 template <int D>
 void TileMesher<D>::post_orders() {
   engine_->edit_together([&] {
-    for (const auto& lines : lines_) carry_out_lines(*lines);
+    for (const auto& common : common_) {
+      if (common->limits) {
+        edit_limits(*world_, common->limits->is, common->limits->where, *engine_);
+      }
+      carry_out_lines(common->lines);
+    }
+    for (const Point<D>& p : features_) world_->surroundings.feature_changed(p);
     for (const Order& order : orders_) carry_out(order);
   });
+}
+
+template <int D>
+void TileMesher<D>::forget_orders() noexcept {
+  common_.clear();
+  features_.clear();
+  orders_.clear();
 }
 
 template <int D>
@@ -314,9 +345,10 @@ void TileMesher<D>::watch(std::function<bool(std::uint64_t)> report) {
 template <int D>
 void TileMesher<D>::run_quadtree() {
   post_orders();
-  lines_.clear();
-  orders_.clear();
+  forget_orders();
+  world_->most_records = world_->most_vertices;  // all that come here are in the mesh
   counts_.run += engine_->template run<detail::run_quadtree<D>>().executed;
+  world_->most_records = kAnyRecords;
 }
 
 template <int D>
@@ -346,10 +378,20 @@ int TileMesher<D>::next_part(int part) const noexcept {
 template <int D>
 void TileMesher<D>::propagate() {
   post_orders();
+  world_->most_records = records_in_update();
   counts_.again += engine_->propagate().executed;
-  lines_.clear();
-  orders_.clear();
+  forget_orders();
   tries_nearer_ = false;
+}
+
+// Where limits ask for too many vertices, these shall not need all memory before it is known. (What
+// comes on the way, too, is not more than there will be, and are here.)
+template <int D>
+std::size_t TileMesher<D>::records_in_update() const noexcept {
+  constexpr std::size_t kOnTheWay = 4096;
+  const std::size_t now = world_->vertices.pool().size(), most = world_->most_vertices;
+  if (!world_->limits.any() || most > kAnyRecords / 4) return kAnyRecords;
+  return now + 2 * most + kOnTheWay;
 }
 
 template <int D>
@@ -643,8 +685,10 @@ void TileMesher<D>::check_invariants() const {
   }
 }
 
+template struct CommonOrders<2>;
 template class TileMesher<2>;
 #ifndef MESHER_PLANE_ONLY
+template struct CommonOrders<3>;
 template class TileMesher<3>;
 #endif
 

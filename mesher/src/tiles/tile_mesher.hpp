@@ -11,6 +11,8 @@
 // In the plane all tiles have all segments and all leaves. Which leaf is cut, and when, is a
 // function of who asks for it: a call that does says so to all tiles, and each makes the same cut,
 // at the same turn.
+// All tiles have all limits of size. Each fills its own territory: what keeps the lattice away is a
+// function of the input, of which all tiles look at the same features.
 #pragma once
 
 #include <cstdint>
@@ -61,6 +63,22 @@ struct LineOrders {
   [[nodiscard]] LineOrders inverse() const;
 };
 
+/// What all tiles are told of the whole input.
+template <int D>
+struct CommonOrders {
+  struct LimitsChange {
+    Options<D> was, is;           // with the limits before and after,
+    std::vector<Box<D>> where{};  // which differ here
+  };
+  LineOrders lines{};
+  std::optional<LimitsChange> limits{};  // nothing: they stay
+  std::vector<Point<D>> features{};      // where features' points have come or gone
+  [[nodiscard]] bool is_empty() const noexcept {
+    return lines.is_empty() && !limits && features.empty();
+  }
+  [[nodiscard]] CommonOrders inverse() const;
+};
+
 /// What a tile has done so far.
 struct TileCounts {
   std::uint64_t run = 0;        // calls of a first run
@@ -75,10 +93,12 @@ template <int D>
 class TileMesher {
  public:
   /// A point of features. `level`: the deepest one at which it is crowded among those of all tiles;
-  /// `role`: none of a point of the input.
+  /// `pitch`: of the lattice there; `role`: none of a point of the input.
   struct Located {
-    Located(int l, const Role& r = {}) : level(l), role(r) {}
+    explicit Located(int l, double t = Limits<D>::kNone, const Role& r = {})
+        : level(l), pitch(t), role(r) {}
     int level;
+    double pitch;
     Role role;
     friend bool operator==(const Located&, const Located&) = default;
   };
@@ -88,9 +108,9 @@ class TileMesher {
     [[nodiscard]] Edit inverse() const { return {p, is, was}; }
   };
 
-  /// `ends`: TileBorder::set_ends; null: there are no segments.
+  /// What `whole` refers to must outlive it.
   TileMesher(const Options<D>& options, const MeshBox<D>& box, const Territories<D>& all,
-             std::size_t self, const VertexPool<D>* ends = nullptr);
+             std::size_t self, const WholeInput<D>& whole = {});
   TileMesher(const TileMesher&) = delete;
   TileMesher& operator=(const TileMesher&) = delete;
   ~TileMesher();
@@ -98,21 +118,22 @@ class TileMesher {
   /// Notes edits of points of the territory, and the messages of tile `from`, for the next run.
   /// What throws leaves the tile good for nothing.
   void edit(const std::vector<Edit>& edits);
-  /// Likewise, of segments; in the plane.
-  void edit_lines(std::shared_ptr<const LineOrders> lines);
+  /// Likewise, of what all are told.
+  void edit_common(std::shared_ptr<const CommonOrders<D>> common);
   void receive(std::size_t from, const std::vector<Message<D>>& messages);
   /// Tells report(calls) of calls that have run since, some thousand times a second; if it returns
   /// false the run ends with sac::Cancelled.
   void watch(std::function<bool(std::uint64_t)> report);
   /// Whether something waits to be run.
   [[nodiscard]] bool is_dirty() const noexcept {
-    return !orders_.empty() || !lines_.empty() || tries_nearer_;
+    return !orders_.empty() || !common_.empty() || !features_.empty() || tries_nearer_;
   }
   /// When all tiles agree: what would come too near to others is tried again (TileBorder). Returns
   /// whether there is any.
   bool try_nearer();
   void reset_nearness() noexcept { border_->reset_nearness(); }
-  [[nodiscard]] std::size_t orders() const noexcept { return orders_.size(); }
+  /// How much that is, of the least of it.
+  [[nodiscard]] std::uint64_t orders() const noexcept;
 
   /// The parts of a first run: points are located; parts 0 to parts() - 1, by buckets; stars. What
   /// throws leaves the tile good for nothing.
@@ -207,9 +228,9 @@ class TileMesher {
     Turn<D> turn;
     int number;          // locate: the level; arrive, cut: the bucket
     std::uint32_t name;  // ask: the question; arrive: from which tile
-    double radius;
-    Role role{};    // locate, arrive
-    Piece piece{};  // cut
+    double radius;       // locate: the pitch
+    Role role{};         // locate, arrive
+    Piece piece{};       // cut
   };
   struct Asked {                                                    // of another tile
     std::unordered_map<Look<D>, std::uint32_t, TurnHash<D>> looks;  // how often
@@ -238,6 +259,8 @@ class TileMesher {
   void carry_out(const Order& order);
   void carry_out_in_complete(const Order& order, int bucket);
   void carry_out_lines(const LineOrders& lines);
+  void forget_orders() noexcept;
+  [[nodiscard]] std::size_t records_in_update() const noexcept;
   void carry_out_cut(const Order& order);
   void locate(const Order& order, VertexRef<D> v);
   [[nodiscard]] Role own(Role role) const;
@@ -268,7 +291,8 @@ class TileMesher {
   std::unique_ptr<sac::Engine> engine_;
   std::unique_ptr<TileBorder<D>> border_;
   std::unique_ptr<World<sac::Scope, D>> world_;
-  std::vector<std::shared_ptr<const LineOrders>> lines_;
+  std::vector<std::shared_ptr<const CommonOrders<D>>> common_;
+  std::vector<Point<D>> features_;  // that concern this tile
   std::vector<Order> orders_;
   bool tries_nearer_ = false;
   std::size_t own_vertices_ = 0;

@@ -60,7 +60,7 @@ std::pair<std::uint32_t, Message<D>> unpack_message(Unpacker& bytes) {
 template <int D>
 TiledMesher<D>::TiledMesher(const Options<D>& options, const MeshBox<D>& box,
                             const std::vector<Point<D>>& places, std::size_t tiles,
-                            std::size_t threads, Peers& peers, const VertexPool<D>* ends)
+                            std::size_t threads, Peers& peers, const WholeInput<D>& whole)
     : options_(options),
       threads_(threads),
       peers_(peers),
@@ -77,7 +77,7 @@ TiledMesher<D>::TiledMesher(const Options<D>& options, const MeshBox<D>& box,
   }
   first_ = first_of(peers.self());
   for (std::size_t t = first_; t < first_of(peers.self() + 1); ++t) {
-    tiles_.push_back(std::make_unique<TileMesher<D>>(options, box, all_, t, ends));
+    tiles_.push_back(std::make_unique<TileMesher<D>>(options, box, all_, t, whole));
   }
   out_.resize(tiles_.size());
   waiting_.resize(tiles_.size());
@@ -364,7 +364,7 @@ void TiledMesher<D>::require_all() {
 // --- Runs ------------------------------------------------------------------------------------
 
 template <int D>
-void TiledMesher<D>::first_run(const Edits& edits, const Ask& ask, const Lines& lines) {
+void TiledMesher<D>::first_run(const Edits& edits, const Ask& ask, const Common& common) {
   attempt([&] { watch(ask); });
   auto mark = std::chrono::steady_clock::now();
   const auto begin = [&](Phase phase) {
@@ -389,7 +389,7 @@ void TiledMesher<D>::first_run(const Edits& edits, const Ask& ask, const Lines& 
   constexpr std::uint64_t kMany = ~std::uint64_t{0};
   begin(Phase::quadtree);
   run_all(kMany, [&](TileMesher<D>& tile, std::size_t t) {
-    if (lines) tile.edit_lines(lines);
+    if (common) tile.edit_common(common);
     tile.edit(edits[t]);
     tile.run_quadtree();
   });
@@ -426,10 +426,10 @@ void TiledMesher<D>::require_sound() const {
 }
 
 template <int D>
-void TiledMesher<D>::edit_all(const Edits& edits, const Lines& lines) {
+void TiledMesher<D>::edit_all(const Edits& edits, const Common& common) {
   is_exact_ = false;
   for (std::size_t t = 0; t < tiles_.size(); ++t) {
-    if (lines) tiles_[t]->edit_lines(lines);
+    if (common) tiles_[t]->edit_common(common);
     tiles_[t]->edit(edits[t]);
   }
   is_exact_ = true;
@@ -442,7 +442,7 @@ void TiledMesher<D>::commit_lines() noexcept {
 
 template <int D>
 void TiledMesher<D>::update(const Edits& edits, const Ask& ask,
-                            const std::function<void(Changes&)>& last, const Lines& lines) {
+                            const std::function<void(Changes&)>& last, const Common& common) {
   require_sound();
   phase_ = Phase::update;
   attempt([&] { watch(ask); });
@@ -450,12 +450,13 @@ void TiledMesher<D>::update(const Edits& edits, const Ask& ask,
   is_exact_ = false;
   Changes changes;
   try {
-    attempt([&] { edit_all(edits, lines); });
+    attempt([&] { edit_all(edits, common); });
     settle(&changes);
     require_all();
     last(changes);
   } catch (...) {
-    take_back(edits, lines);
+    broken_ = is_edited_ = true;
+    failure_ = nullptr;
     throw;
   }
   commit_lines();
@@ -465,9 +466,8 @@ void TiledMesher<D>::update(const Edits& edits, const Ask& ask,
 // The edits have been made, or wait to be. What is told of the mesh is forgotten: at the end it is
 // as it was.
 template <int D>
-void TiledMesher<D>::take_back(const Edits& edits, const Lines& lines) noexcept {
-  broken_ = true;
-  failure_ = nullptr;
+void TiledMesher<D>::take_back(const Edits& edits, const Common& common) noexcept {
+  if (!std::exchange(is_edited_, false)) return;
   if (least_of(is_exact_ ? 1 : 0) == 0) return;
   unwatch();
   attempt([&] {
@@ -478,7 +478,7 @@ void TiledMesher<D>::take_back(const Edits& edits, const Lines& lines) noexcept 
         inverse[t].push_back(it->inverse());
       }
     }
-    edit_all(inverse, lines ? std::make_shared<LineOrders>(lines->inverse()) : nullptr);
+    edit_all(inverse, common ? std::make_shared<CommonOrders<D>>(common->inverse()) : nullptr);
   });
   try {
     settle(nullptr);

@@ -98,26 +98,28 @@ class TiledMesher {
   using Changes = typename TileMesher<D>::Changes;
 
   /// `places`: of the input's points, which say where the cuts are. `tiles`: of all processes, as
-  /// many or fewer; a process may have none. `peers` must outlive it, and so must `ends`: as for
-  /// TileMesher.
+  /// many or fewer; a process may have none. `peers` must outlive it, and so must what `whole`
+  /// refers to.
   TiledMesher(const Options<D>& options, const MeshBox<D>& box, const std::vector<Point<D>>& places,
               std::size_t tiles, std::size_t threads, Peers& peers,
-              const VertexPool<D>* ends = nullptr);
+              const WholeInput<D>& whole = {});
 
   /// `control` is asked, on the thread of the caller, while something runs. `ask(phase, calls)`:
   /// false if the run shall stop.
   using Ask = std::function<bool(Phase, std::uint64_t)>;
   /// Throws: Error, sac::Cancelled, std::bad_alloc, what `ask` throws: good for nothing then. What
   /// is thrown in one process is thrown in all, as by agree().
-  /// `lines`: null where there are none.
-  using Lines = std::shared_ptr<const LineOrders>;
-  void first_run(const Edits& edits, const Ask& ask, const Lines& lines = nullptr);
+  /// `common`: null where there is nothing to be told.
+  using Common = std::shared_ptr<const CommonOrders<D>>;
+  void first_run(const Edits& edits, const Ask& ask, const Common& common = nullptr);
   /// Makes the edits; last(changes) is called, with those of this process, when all agree; it
-  /// throws in all processes or in none. Throws: likewise, and what `last` throws: the edits are
-  /// then taken back, by a run of their inverses. If that fails, too, every further update throws
-  /// sac::UsageError.
+  /// throws in all processes or in none. Throws: likewise, and what `last` throws: then the whole
+  /// input must be put back, and the edits taken back.
   void update(const Edits& edits, const Ask& ask, const std::function<void(Changes&)>& last,
-              const Lines& lines = nullptr);
+              const Common& common = nullptr);
+  /// Those of the last update, which has thrown: by a run of their inverses. If that fails, too,
+  /// or is not done, every further update throws sac::UsageError.
+  void take_back(const Edits& edits, const Common& common = nullptr) noexcept;
 
   /// Tiles of this process.
   [[nodiscard]] std::size_t size() const noexcept { return tiles_.size(); }
@@ -178,8 +180,7 @@ class TiledMesher {
   void number_vertices(std::size_t t, Part& part) const;
   void list_simplices(std::size_t t, std::vector<Part>& parts, Others& others) const;
   void require_sound() const;
-  void edit_all(const Edits& edits, const Lines& lines);
-  void take_back(const Edits& edits, const Lines& lines) noexcept;
+  void edit_all(const Edits& edits, const Common& common);
   void commit_lines() noexcept;
 
   Options<D> options_;
@@ -198,7 +199,8 @@ class TiledMesher {
   std::exception_ptr failure_;  // of this process, since all agreed last
   std::array<double, 3> seconds_{};
   bool broken_ = false;
-  bool is_exact_ = true;  // what tiles know of each other is what they have said
+  bool is_edited_ = false;  // by an update that has failed, and has not been taken back
+  bool is_exact_ = true;    // what tiles know of each other is what they have said
 
   // While `ask_` is asked.
   Ask ask_;

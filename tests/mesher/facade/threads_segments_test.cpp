@@ -541,14 +541,15 @@ struct SplitInput : mesher::detail::Names {
     for_each_feature([&](auto& v) {
       world.features.find_level(v, path);
       if (!all.owns(self, v.p)) return;
-      edits.push_back({v.p, std::nullopt, Tile::Located(v.level, world.vertices.role(v))});
+      edits.push_back({v.p, std::nullopt, Tile::Located(v.level, world.limits.pitch(v.p), world.vertices.role(v))});
     });
-    const auto lines = std::make_shared<mesher::detail::LineOrders>();
+    const auto common = std::make_shared<mesher::detail::CommonOrders<2>>();
+    auto& lines = common->lines;
     world.segments.pool().for_each([&](const auto& s) {
-      lines->segments.push_back({s.self, s.a, s.b, std::nullopt, world.segments.zones(s)});
+      lines.segments.push_back({s.self, s.a, s.b, std::nullopt, world.segments.zones(s)});
     });
-    world.leaves.for_each([&](const auto& leaf) { lines->leaves.push_back({leaf.piece, true}); });
-    tile.edit_lines(lines);
+    world.leaves.for_each([&](const auto& leaf) { lines.leaves.push_back({leaf.piece, true}); });
+    tile.edit_common(common);
     tile.edit(edits);
   }
 };
@@ -557,8 +558,8 @@ struct SplitInput : mesher::detail::Names {
 std::string fault_without(std::size_t lost, std::size_t& messages, std::size_t& cuts) {
   SplitInput input(mesher::generate_pslg({PslgKind::segments, 20, 3}));
   const mesher::detail::Territories<2> all(input.places, 2);
-  const auto* ends = &input.world.vertices.pool();
-  Tile a(input.options, input.box, all, 0, ends), b(input.options, input.box, all, 1, ends);
+  const mesher::detail::WholeInput<2> whole{&input.world.vertices.pool(), nullptr};
+  Tile a(input.options, input.box, all, 0, whole), b(input.options, input.box, all, 1, whole);
   Tile* const tiles[] = {&a, &b};
   messages = cuts = 0;
   const auto lose = [&](std::vector<Message>& some) {

@@ -442,7 +442,7 @@ std::string fault_without(std::size_t lost, std::size_t& messages) {
   for (const auto& p : points) features.insert_only(pool.create(p));
   std::vector<Tile::Edit> edits[2];
   pool.for_each([&](const mesher::detail::Vertex<2>& v) {
-    edits[all.owner(v.p)].push_back({v.p, std::nullopt, features.crowded_level(v)});
+    edits[all.owner(v.p)].push_back({v.p, std::nullopt, Tile::Located(features.crowded_level(v))});
   });
   a.edit(edits[0]), b.edit(edits[1]);
   run_all([](Tile& t) { t.run_quadtree(); });
