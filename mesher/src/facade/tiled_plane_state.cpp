@@ -224,10 +224,10 @@ Change<2> TiledPlaneState::propagate(const Edits<2>& edits, const RunControl& co
     engine_->propagate(run_tiles);
   } catch (...) {
     take_back(news);
+    const HeldPoints held(world_->features);
+    tiles_->take_back(news.by_tile, common);  // before records of ends are freed
     commit();
     forget();
-    const HeldPoints held(world_->features);
-    tiles_->take_back(news.by_tile, common);
     if (tiles_->is_broken()) tiles_ = build({});  // the mesh is a function of what is there
     in_tiles([] { throw; }, !is_judged);
   }

@@ -455,6 +455,16 @@ TEST_CASE("on several threads limits that cannot be kept are refused as on one")
   }
 }
 
+namespace {
+
+// How many vertices are on a line so far is another number in an update than in a first run, which
+// is what says that there are too many.
+std::string without_counts(const std::string& text) {
+  return text.substr(0, text.find("; so far"));
+}
+
+}  // namespace
+
 TEST_CASE("with limits, on several threads the number of vertices is limited as on one") {
   const auto points = points_of<2>(PointKind::uniform, 40, 5);
   const auto run = [&](int threads, std::size_t most, bool lines, double then) {
@@ -477,7 +487,10 @@ TEST_CASE("with limits, on several threads the number of vertices is limited as 
       REQUIRE(run(3, limit, lines, 0) == run(1, limit, lines, 0));
     }
     for (const double area : {0.3, 0.1, 1e-9}) {  // 10^12 vertices are not made
-      REQUIRE(run(3, 2 * most, lines, area) == run(1, 2 * most, lines, area));
+      CAPTURE(lines, area);
+      const auto by_many = run(3, 2 * most, lines, area), by_one = run(1, 2 * most, lines, area);
+      REQUIRE(without_counts(by_many.first) == without_counts(by_one.first));
+      REQUIRE(by_many.second == by_one.second);
     }
   }
 }
