@@ -8,14 +8,15 @@
 // in seconds by the clock and of the process:
 //   first_run  with points announced before: of one thread, of several, the ratio; of the latter
 //              the seconds before and after the tiles; calls over those of one, bytes of trace over
-//              those of one
+//              those of one; seconds of the phases before the mesh and of it, of one and of several
 //   exchanges  rounds and messages of the first run, horizons; vertices of others that tiles see,
-//              over all
+//              over all; the most calls of a tile over those of all
 //   updates    microseconds by the clock, of points that move anywhere, one at a time: median and
 //              99th percentile of one and of several threads; a batch of 1000, of both; of lines
 //              that go and come again, a batch of 200
 //   limits     the same of a quarter of MEASURE in boxes that 100 points would be in, and MEASURE
 //              again; a batch of 20 boxes
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -96,16 +97,22 @@ void print_exchanges(const Case<D>& c) {
   const mesher::detail::StagedLines lines;
   const mesher::detail::StagedPolygons polygons;
   static_cast<void>(state.first_run({pending.sorted(), lines, polygons}, {}, {}));
-  std::uint64_t seen = 0;
-  for (std::size_t t = 0; t < state.tiles().size(); ++t) seen += state.tiles()[t].counts().seen;
+  std::uint64_t seen = 0, all = 0, most = 0;
+  for (std::size_t t = 0; t < state.tiles().size(); ++t) {
+    const auto& counts = state.tiles()[t].counts();
+    seen += counts.seen;
+    all += counts.run + counts.again;
+    most = std::max(most, counts.run + counts.again);
+  }
   const auto& exchanges = state.tiles().exchanges();
   std::printf(
       "{\"bench\":\"threads\",\"figure\":\"exchanges\",%s,\"rounds\":%llu,\"horizons\":%llu,"
-      "\"messages\":%llu,\"seen_over_vertices\":%.4f}\n",
+      "\"messages\":%llu,\"seen_over_vertices\":%.4f,\"most_of_a_tile\":%.3f}\n",
       c.name().c_str(), static_cast<unsigned long long>(exchanges.rounds),
       static_cast<unsigned long long>(exchanges.horizons),
       static_cast<unsigned long long>(exchanges.messages),
-      static_cast<double>(seen) / static_cast<double>(state.stats().vertices));
+      static_cast<double>(seen) / static_cast<double>(state.stats().vertices),
+      static_cast<double>(most) / static_cast<double>(all));
 }
 
 // Updates of one thread and of several, by the clock: one at a time, and of much at once.
@@ -172,11 +179,13 @@ void bench_case(Case<D> c) {
   std::printf(
       "{\"bench\":\"threads\",\"figure\":\"first_run\",%s,\"vertices\":%zu,\"one_s\":%.3f,"
       "\"many_s\":%.3f,\"speedup\":%.2f,\"around_tiles_s\":%.3f,\"one_process_s\":%.3f,"
-      "\"many_process_s\":%.3f,\"calls_over_one\":%.3f,\"bytes_over_one\":%.3f}\n",
+      "\"many_process_s\":%.3f,\"calls_over_one\":%.3f,\"bytes_over_one\":%.3f,"
+      "\"quadtree_s\":[%.3f,%.3f],\"steiner_s\":[%.3f,%.3f]}\n",
       c.name().c_str(), s.vertices, by_one.clock, by_many.clock, by_one.clock / by_many.clock,
       by_many.clock - in_tiles, by_one.process, by_many.process,
       static_cast<double>(calls) / static_cast<double>(calls_of_one),
-      static_cast<double>(s.trace_bytes) / static_cast<double>(of_one.trace_bytes));
+      static_cast<double>(s.trace_bytes) / static_cast<double>(of_one.trace_bytes),
+      of_one.seconds_quadtree, s.seconds_quadtree, of_one.seconds_steiner, s.seconds_steiner);
   Updates<D> updates{one, many};
   for (int k = 0; k < 1000; ++k) {
     c.move_any(one, many);

@@ -25,6 +25,8 @@ class AnyState {
   virtual Change<D> first_run(Edits<D> edits, const RunControl& control, const Accept& accept) = 0;
   /// Whether propagate() can make these edits. If not, a first run of all can.
   [[nodiscard]] virtual bool takes(const Edits<D>& edits) const noexcept = 0;
+  /// Whether a first run of all is known to take less time than propagate() would.
+  [[nodiscard]] virtual bool is_sooner_anew(const Edits<D>&) const noexcept { return false; }
   /// Makes the edits and propagates them. Requires: a run; takes(edits).
   /// `accept`: asked when all can still be undone.
   virtual Change<D> propagate(const Edits<D>& edits, const RunControl& control,

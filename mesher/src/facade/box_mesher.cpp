@@ -246,8 +246,13 @@ Change<D> BoxMesher<D>::Impl::run(const RunControl& control, const LastWord& acc
   if (state->ran()) {
     const detail::Edits<D> edits{points.pending().sorted(), lines, polygons,
                                  pending_limits.edit(options)};
-    if (state->takes(edits)) return state->propagate(edits, control, accept);
-    return run_anew(control, accept, options.threads);
+    if (!state->takes(edits)) return run_anew(control, accept, options.threads);
+    if (!state->is_sooner_anew(edits)) return state->propagate(edits, control, accept);
+    try {
+      return run_anew(control, accept, options.threads);
+    } catch (const Error&) {  // it is said in the words of an update
+      return state->propagate(edits, control, accept);
+    }
   }
   const Options<D> now = pending_options();
   detail::Edits<D> edits{points.pending().sorted(), lines, polygons};

@@ -23,9 +23,12 @@ class TiledPlaneState final : public PlaneState {
   Change<2> first_run(Edits<2> edits, const RunControl& control, const Accept& accept) override;
   Change<2> propagate(const Edits<2>& edits, const RunControl& control,
                       const Accept& accept) override;
-  /// Points and lines, and limits of size in a part of the domain.
+  /// Points, lines, and limits of size.
   [[nodiscard]] bool takes(const Edits<2>& edits) const noexcept override {
-    return !edits.polygons.has_edits() && !changes_all_limits(edits);
+    return !edits.polygons.has_edits();
+  }
+  [[nodiscard]] bool is_sooner_anew(const Edits<2>& edits) const noexcept override {
+    return changes_all_limits(edits);
   }
 
   [[nodiscard]] Mesh<2> mesh() const override;

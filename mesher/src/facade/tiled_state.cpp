@@ -196,7 +196,7 @@ void TiledState<D>::drop_others(Change<D>& change) const {
 
 template <int D>
 bool TiledState<D>::takes(const Edits<D>& edits) const noexcept {
-  return !edits.lines.has_edits() && !edits.polygons.has_edits() && !changes_all_limits(edits);
+  return !edits.lines.has_edits() && !edits.polygons.has_edits();
 }
 
 // Nothing has changed yet.

@@ -35,8 +35,7 @@ template <int D>
 [[nodiscard]] bool may_be_tiled(const Options<D>& options, const Edits<D>& edits);
 /// The same with lines in the plane (tiled_plane_state.hpp).
 [[nodiscard]] bool may_have_lines_tiled(const Options<2>& options, const Edits<2>& edits);
-/// Whether tiles had better begin anew: the limits of size are others everywhere. (To follow that
-/// takes several times a first run.)
+/// Whether limits of size are edited everywhere: to follow that takes several times a first run.
 template <int D>
 [[nodiscard]] bool changes_all_limits(const Edits<D>& edits) noexcept;
 
@@ -53,8 +52,11 @@ class TiledState final : public AnyState<D> {
 
   /// Where there are limits of size, this and propagate() throw NotInTiles, too.
   Change<D> first_run(Edits<D> edits, const RunControl& control, const Accept& accept) override;
-  /// Points, and limits of size in a part of the domain.
+  /// Points, and limits of size.
   [[nodiscard]] bool takes(const Edits<D>& edits) const noexcept override;
+  [[nodiscard]] bool is_sooner_anew(const Edits<D>& edits) const noexcept override {
+    return changes_all_limits(edits);
+  }
   Change<D> propagate(const Edits<D>& edits, const RunControl& control,
                       const Accept& accept) override;
 
