@@ -337,7 +337,7 @@ void add_threads_option(CLI::App& command, MeshArguments& args) {
       .add_option(
           "--threads", args.threads,
           "For points, and lines in the plane: mesh, and follow the edits, on N threads; the mesh\n"
-          "is that of one. Once anything else comes, one thread does all (default: 1)")
+          "is that of one. Once polygons come, or lines in space, one thread does all (default: 1)")
       ->type_name("N");
 }
 

@@ -20,8 +20,13 @@ cat >threads/lines.txt <<'EDITS'
 move 9 .125 .5
 limit size .2 in .25 .25 .5 .5
 EDITS
+cat >threads/limits.txt <<'EDITS'
+limit size .02 in .25 .25 .75 .5
+move 3 .5 .25
+limit size .05
+EDITS
 expect 0 '' gen uniform --n 500 --seed 4 -o threads/points.node
-for script in edits lines; do
+for script in edits lines limits; do
   for threads in '' 1 2 5; do
     expect 0 '' edit threads/points.node --domain 0 0 1 1 --script threads/$script.txt --quiet \
       ${threads:+--threads $threads} -o threads/after$threads.node -o threads/after$threads.vtu \
@@ -31,6 +36,12 @@ for script in edits lines; do
     same threads/after.vtu threads/after$threads.vtu
   done
 done
+for threads in 1 3; do
+  expect 0 '' edit threads/points.node --domain 0 0 1 1 --max-area .0005 --quiet --threads $threads \
+    --script threads/lines.txt -o threads/limited$threads.node
+done
+same threads/limited1.node threads/limited3.node
+same threads/limited1.ele threads/limited3.ele
 expect 2 "above 0" edit threads/points.node --script threads/edits.txt --threads 0
 expect 2 "must be at most 256" edit threads/points.node --script threads/edits.txt --threads 257
 expect 2 "exclude each other" edit threads/points.node --script threads/edits.txt --threads 2 --static

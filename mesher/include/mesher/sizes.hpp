@@ -42,7 +42,7 @@ struct SizeRange {
   bool even = false;  ///< all finite sizes are known to be plateaus, see SizeField::plateaus
 };
 
-/// A size for each position. It must return the same values for as long as a mesh refers to it.
+/// A size for each position: the same for as long as a mesh refers to it, and on all its threads.
 template <int D>
 class SizeField {
  public:

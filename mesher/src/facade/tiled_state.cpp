@@ -54,9 +54,10 @@ bool may_have_lines_tiled(const Options<2>& options, const Edits<2>& edits) {
 template <int D>
 bool changes_all_limits(const Edits<D>& edits) noexcept {
   if (!edits.limits) return false;
-  const auto& [options, where] = *edits.limits;
+  const Box<D>& domain = edits.limits->options.domain;
+  const auto& where = edits.limits->where;
   return std::any_of(where.begin(), where.end(),
-                     [&](const Box<D>& box) { return contains(box, options.domain); });
+                     [&](const Box<D>& box) { return contains(box, domain); });
 }
 
 template <int D>
