@@ -19,6 +19,7 @@
 #include "program/world_impl.hpp"
 #include "random_limits.hpp"
 #include "rules/mesh_box.hpp"
+#include "sizes/fill_places.hpp"
 
 namespace {
 
@@ -373,6 +374,28 @@ TEST_CASE("soak: with lines and limits, the same", "[.soak][soak]") {
        {PslgKind::segments, PslgKind::lengths, PslgKind::polylines, PslgKind::trees,
         PslgKind::corridors, PslgKind::zigzag, PslgKind::fan, PslgKind::bundle}) {
     for (const int threads : {2, 3, 7}) check_lines(kind, 30, threads, 16, seed++);
+  }
+}
+
+TEST_CASE("where the lattice has most of the vertices, tiles have as many of them each") {
+  Options<2> options = options_for<2>(1);
+  options.max_measure = 0.02;
+  BoxMesher<2> m(options);
+  const auto points = points_of<2>(PointKind::clusters, 40, 2);
+  for (std::size_t i = 0; i < points.size(); ++i) m.insert(PointId(i + 1), points[i]);
+  m.limit({{2, 3}, {6, 7}}, {.max_measure = 0.005});
+  m.update();
+  const auto box = mesher::detail::mesh_box(m.options());
+  const mesher::detail::Limits<2> limits(m.options(), box);
+  const mesher::detail::Territories<2> all(
+      mesher::detail::places_of_work(points, limits, box, options.domain), 4);
+  REQUIRE(all.size() == 4);
+  std::vector<std::size_t> own(4);
+  const Mesh<2> mesh = m.mesh();
+  for (const Point<2>& p : mesh.vertices) ++own[all.owner(p)];
+  for (const std::size_t count : own) {
+    CHECK(count * 4 > mesh.vertices.size() * 3 / 4);
+    CHECK(count * 4 < mesh.vertices.size() * 5 / 4);
   }
 }
 
