@@ -42,9 +42,9 @@ struct OnTheWay {
   std::uint32_t simplex = kNone;  // none: there is no such edge
 };
 
-/// By a walk in the star of a towards b, over facets that b is beyond. It comes to no end in a
-/// circle, since the triangulation is Delaunay; where b is on the plane of a facet, or nothing is
-/// behind it, nothing is known. Cost: O(steps).
+/// By a walk in the star of a, from s on, over facets that b is beyond: in a Delaunay triangulation
+/// it does not go in circles. Where b is on the plane of a facet, or the walk leaves the hull,
+/// nothing is known. Cost: O(steps).
 template <class Kernel>
 [[nodiscard]] OnTheWay walk_to_edge(const Kernel& kernel, std::uint32_t s, std::uint32_t a,
                                     std::uint32_t b) {
