@@ -165,7 +165,8 @@ inline constexpr int kRepairRounds = 32;
 //                share, and loops that go there and back, are no borders. A polygon that meets
 //                itself in a point is cut there. A polygon that is not flat by the mesher's measure
 //                is cut into triangles, as near to Delaunay in its plane as its loops and the
-//                features inside it allow.
+//                features inside it, and edges that lie on it within the tolerance, allow. Edges
+//                that only cuts have get a common point with others only where they cross.
 //   on polygons  A point, or an edge, on a polygon is declared to lie in it. Where an edge goes
 //                through a polygon, it gets a point, which is declared as well.
 //   crossings    Polygons that cross both get the edges along their line of intersection.

@@ -279,9 +279,31 @@ class PlyReader {
   }
 
   double read_text(const PlyNumber& type) {
-    field_ = fields_.next();
+    const std::string_view last = std::exchange(field_, fields_.next());
+    const bool begins_row = row_ != last_row_;
+    last_row_ = row_;
+    if (begins_row && crowded_.empty() && !last.empty() && is_in_line(last, field_)) {
+      crowded_ = field_;
+    }
     if (field_.empty()) fail_truncated();
-    return type.is_integral ? static_cast<double>(source_.integer(field_)) : source_.finite(field_);
+    try {
+      return type.is_integral ? static_cast<double>(source_.integer(field_))
+                              : source_.finite(field_);
+    } catch (const Error&) {
+      if (!crowded_.empty()) fail_crowded();
+      throw;
+    }
+  }
+  static bool is_in_line(std::string_view last, std::string_view next) {
+    const char* end = last.data() + last.size();
+    return !next.empty() && std::find(end, next.data(), '\n') == next.data();
+  }
+  // Files with all in one line are read; but where that fails, the first line with more than one
+  // row is what is wrong.
+  [[noreturn]] void fail_crowded() const {
+    throw source_.error(ErrorCode::wrong_count,
+                        "the line has more values than the header says of the element before this",
+                        crowded_);
   }
 
   [[nodiscard]] Error error(ErrorCode code, const std::string& what) const {
@@ -289,6 +311,7 @@ class PlyReader {
   }
 
   [[noreturn]] void fail_truncated() const {
+    if (!crowded_.empty()) fail_crowded();
     const auto& [element, row] = row_;
     const std::string what = "the file ends after " + std::to_string(row) + " of " +
                              std::to_string(element->count) + " of the element " +
@@ -301,6 +324,7 @@ class PlyReader {
   void require_end() {
     const std::string_view more = fields_.next();
     if (more.empty()) return;
+    if (!crowded_.empty()) fail_crowded();
     if (header_.is_text)
       throw source_.error(ErrorCode::wrong_count, "more than the header says", more);
     throw Error(ErrorCode::wrong_count, "more bytes than the header says", {source_.file()});
@@ -314,8 +338,10 @@ class PlyReader {
   Surface out_;
   std::vector<double> corners_;  // of a face
   NoteCounter notes_;
-  std::string_view field_;                                   // the last one of a text
-  std::pair<const Element*, std::int64_t> row_{nullptr, 0};  // what is being read
+  std::string_view field_;                                        // the last one of a text
+  std::pair<const Element*, std::int64_t> row_{nullptr, 0};       // what is being read
+  std::pair<const Element*, std::int64_t> last_row_{nullptr, 0};  // what was read before
+  std::string_view crowded_;  // the first value of a row that does not begin a line, if one does
 };
 
 }  // namespace

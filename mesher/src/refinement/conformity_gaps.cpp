@@ -98,7 +98,7 @@ void Conformity::sort_open_sides(std::size_t first) {
 }
 
 /// The same of the edges that are suspect: others have had their tiles before, or gap_at() has
-/// found nothing there. Cost: O(their stars).
+/// found nothing there. Cost: O(simplices around them), mostly.
 void Conformity::find_new_open_sides(Rank rank) {
   const Polygon& f = polygon(rank);
   auto suspects = std::move(suspects_[rank]);
@@ -108,11 +108,9 @@ void Conformity::find_new_open_sides(Rank rank) {
   std::vector<std::uint32_t> corners_there;  // third corners of tiles at the edge
   for (const auto& [a, b] : suspects) {
     corners_there.clear();
-    kernel_.find_in_star(a, star_, [](std::uint32_t) { return false; });
+    find_at_edge(kernel_, b, a, star_);
     for (const std::uint32_t s : star_) {
-      const auto& corners = kernel_.simplices().corners(s);
-      if (corner_of(corners, b) == corners.size()) continue;
-      for (const std::uint32_t w : corners) {
+      for (const std::uint32_t w : kernel_.simplices().corners(s)) {
         if (w == a || w == b || w == kInfinite || !is_on(w, rank)) continue;
         if (tiles_.find(face_of(a, b, w), rank) != kNone) corners_there.push_back(w);
       }
@@ -151,7 +149,7 @@ bool Conformity::looks_again() {
 }
 
 /// Nothing: there is a tile, or no such edge any more, or nothing pierces the polygon beside it:
-/// then it is suspect again. Cost: O(star of a).
+/// then it is suspect again.
 auto Conformity::gap_at(const Side& side) -> std::optional<Gap> {
   const Rank rank = side.polygon;
   bool is_edge = false;
@@ -161,11 +159,10 @@ auto Conformity::gap_at(const Side& side) -> std::optional<Gap> {
   };
   std::optional<Gap> gap;
   double away = 0;
-  kernel_.find_in_star(side.a, star_, [](std::uint32_t) { return false; });
+  find_at_edge(kernel_, side.b, side.a, star_);
   for (const std::uint32_t s : star_) {
+    if (kernel_.is_ghost(s)) continue;
     const auto& corners = kernel_.simplices().corners(s);
-    const std::size_t at_b = corner_of(corners, side.b);
-    if (at_b == corners.size() || kernel_.is_ghost(s)) continue;
     is_edge = true;
     std::array<std::uint32_t, 2> across{};
     std::size_t found = 0;

@@ -173,7 +173,7 @@ class Cutting {
     }
     for (const Ends& e : inside_.edges) {
       const auto [a, b] = numbers(e);
-      if (!triangulation.add(a, b)) return std::nullopt;
+      static_cast<void>(triangulation.add(a, b));  // else it crosses what lies above or below it
     }
     triangulation.settle();
     const auto fault_at = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {

@@ -1,6 +1,8 @@
 // What is near what in a drawing in space, within the tolerance; and all that has come since.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <new>
 #include <vector>
@@ -10,6 +12,22 @@
 #include "space/validity.hpp"
 
 namespace mesher::detail {
+
+/// Where a polygon lies: around its longest side, if it is narrow, else around its middle.
+[[nodiscard]] inline FeatureExtent<3> narrow_extent_of(const Polygon& f) {
+  FeatureExtent<3> around = extent_of(f), along = around;
+  double longest2 = 0;
+  for (std::uint32_t i = 0; i < f.places.size(); ++i) {
+    const double length2 = squared_distance(f.places[i], f.places[f.next(i)]);
+    if (length2 <= longest2) continue;
+    longest2 = length2;
+    along.p = f.places[i], along.q = f.places[f.next(i)];
+  }
+  double away2 = 0;
+  for (const Point<3>& p : f.places) away2 = std::max(away2, distance2(p, along.p, along.q));
+  along.slack = std::sqrt(away2) * (1 + 0x1p-40) + f.thickness + resolution(f.middle, f.reach);
+  return 2 * along.slack < around.slack ? along : around;
+}
 
 class DrawingSearch {
  public:

@@ -81,12 +81,13 @@ std::optional<PolygonParts> polygon_of(PolygonParts parts, FeatureStore& store) 
 }
 
 std::vector<PolygonParts> settled(const Sheet& sheet, PolygonId polygon, double tolerance,
-                                  FeatureStore& store) {
+                                  FeatureStore& store, const Drawing<3>::AddInside& add_inside) {
   PolygonParts parts = sheet.parts;
   tidy(parts);
   if (!sheet.is_cut_up && is_simple(parts, sheet.is_redrawn)) {
     if (const auto as_it_is = polygon_of(parts, store)) return {*as_it_is};
   }
+  add_inside(parts);
   auto pieces = cut(parts, sheet.is_cut_up, tolerance, store);
   if (pieces) return std::move(*pieces);
   const Point<3>& at = store.points()[parts.loops[0][0]].p;

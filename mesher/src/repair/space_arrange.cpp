@@ -47,6 +47,8 @@ struct Newcomers {
 // anew beside them, would get point after point, each some tolerances from the last).
 constexpr int kCoarseRounds = 24;
 constexpr int kRoundsOfCrossings = 6;
+// A polygon is bent this many tolerances at most by what its edges were led through.
+constexpr double kBent = 8;
 constexpr double kFiner = 64;  // times less is the next tolerance
 
 // Where an edge and another feature meet.
@@ -62,9 +64,12 @@ class Arranging {
   Arranging(Drawing<3>& drawing, const std::vector<PolygonId>& names)
       : drawing_(drawing), store_(drawing.store()), search_(drawing), names_(names) {}
 
-  // What fits together with a tolerance does so with any that is less.
+  // What fits together with a tolerance does so with any that is less: what has been looked at is
+  // looked at again only if it was left.
   int arrange(double least) {
     int rounds = 0;
+    least_ = least;
+    drawing_.start();
     for (; drawing_.tolerance() > least; begin_finer(least)) {
       is_last_ = false;
       if (const auto done = arrange_with(kCoarseRounds)) return rounds + *done;
@@ -82,7 +87,7 @@ class Arranging {
     for (int round = 0; round <= most; ++round) {
       use_edges();
       if (lead_through_near() || lead_through_crossings()) continue;
-      if (drawing_.settle(names_)) continue;
+      if (drawing_.settle(names_, [&](PolygonParts& parts) { add_what_lies_on(parts); })) continue;
       if (declare_and_pierce() || join_polygons() || part_overlaps()) continue;
       return leaves_some_ ? std::nullopt : std::optional(round);
     }
@@ -90,16 +95,13 @@ class Arranging {
   }
   void begin_finer(double least) {
     drawing_.set_tolerance(std::max(drawing_.tolerance() / kFiner, least));
-    waiting_.clear();
-    leaves_some_ = false;
     crossing_rounds_ = 0;
-    for (Newcomers* rule : rules()) *rule = {};
-    store_.edges().for_each([&](const Edge& e) {
-      if (store_.users(e) != 0) tell_of(e.self, &Newcomers::edges);
-    });
-    store_.polygons().for_each([&](const Polygon& f) {
-      if (f.alive) tell_of(f.self, &Newcomers::polygons);
-    });
+    leaves_some_ = false;
+    const HandleSet left = std::exchange(left_, {});
+    for (const EdgeHandle e : left.all()) tell_of(e, &Newcomers::edges);
+    for (const PolygonHandle f : std::exchange(left_polygons_, {})) {
+      tell_of(f, &Newcomers::polygons);
+    }
   }
   void use_edges() {
     drawing_.use_edges();
@@ -132,6 +134,7 @@ class Arranging {
     Change change;
     const auto look_at = [&](const Edge& e, VertexHandle v) {
       if (distance2_to(place(v), e) > most() * most() || !drawing_.may_lead(e, v)) return;
+      if (bounds_needle(e, v)) return;
       change.leads[e.self].push_back(v);
       last_ = place(v);
     };
@@ -147,6 +150,16 @@ class Arranging {
     return change.any();
   }
 
+  // Whether e was made by a cut, with a triangle whose third corner v is: there was no better cut.
+  [[nodiscard]] bool bounds_needle(const Edge& e, VertexHandle v) const {
+    if (drawing_.is_drawn(e.self)) return false;
+    const auto polygons = store_.polygons_at(e);
+    return std::any_of(polygons.begin(), polygons.end(), [&](PolygonHandle h) {
+      const auto& corners = store_.polygons()[h].corners;
+      return std::find(corners.begin(), corners.end(), v) != corners.end();
+    });
+  }
+
   bool lead_through_crossings() {
     const Newcomers seen = take(crossing_);
     std::vector<Meeting> meetings;
@@ -155,7 +168,9 @@ class Arranging {
         const Edge& t = store_.edges()[h];
         if ((seen.edges.has(h) && h <= e.self) || !disjoint(e, t)) continue;
         const auto [x, y] = first_by_place(e, t);
-        if (distance2(x->place_a, x->place_b, y->place_a, y->place_b) > most() * most()) continue;
+        const bool are_drawn = drawing_.is_drawn(e.self) && drawing_.is_drawn(h);
+        const double within = are_drawn ? most() : least_;
+        if (distance2(x->place_a, x->place_b, y->place_a, y->place_b) > within * within) continue;
         const Point<3> at = nearest_place(x->place_a, x->place_b, y->place_a, y->place_b);
         meetings.push_back({at, x->self, y->self});
       }
@@ -182,7 +197,7 @@ class Arranging {
     return is_first ? std::pair(&e, &t) : std::pair(&t, &e);
   }
   [[nodiscard]] bool leads(const Edge& e, VertexHandle v) const {
-    return e.has_end(v) || drawing_.may_lead(e, v);
+    return e.has_end(v) || (drawing_.may_lead(e, v) && !bounds_needle(e, v));
   }
   // The nearest point that serves, or a new one, on e, if none is near; nothing: it is left to a
   // lesser tolerance.
@@ -201,8 +216,10 @@ class Arranging {
     }
     if (is_last_) fail_crowded(at);
     leaves_some_ = true;
+    left_.add(e.self);
     return std::nullopt;
   }
+
   // --- What lies on polygons -----------------------------------------------------------------
 
   [[nodiscard]] bool lies_on(VertexHandle v, const Polygon& f) const {
@@ -212,6 +229,25 @@ class Arranging {
   [[nodiscard]] static bool lies_on(const Edge& e, const Polygon& f) {
     return f.has(e.a) && f.has(e.b) && !f.has_edge(e.self) &&
            contains(f, scaled(0.5, plus(e.place_a, e.place_b)));
+  }
+
+  // Adds what lies on a polygon that is to be cut: cuts that do not follow it cross it.
+  void add_what_lies_on(PolygonParts& parts) {
+    const Polygon& f = store_.record(parts);
+    if (!has_area(f) || f.thickness > kBent * most()) return;
+    std::vector<VertexHandle> on = f.points;
+    search_.visit_points(narrow_extent_of(f), [&](VertexHandle v) {
+      if (!lies_on(v, f)) return;
+      parts.points.push_back(v);
+      on.push_back(v);
+    });
+    make_set(on);
+    const auto is_on = [&](VertexHandle v) { return std::binary_search(on.begin(), on.end(), v); };
+    for (const EdgeHandle h : search_.near<Edge>(narrow_extent_of(f))) {
+      const Edge& e = store_.edges()[h];
+      if (!is_on(e.a) || !is_on(e.b) || f.has_edge(h)) continue;
+      if (contains(f, scaled(0.5, plus(e.place_a, e.place_b)))) parts.edges.emplace_back(e.a, e.b);
+    }
   }
 
   bool declare_and_pierce() {
@@ -230,8 +266,8 @@ class Arranging {
       }
     };
     search_.visit_polygons(seen.polygons.all(), [&](const Polygon& f) {
-      search_.visit_points(extent_of(f), [&](VertexHandle v) { look_at_point(v, f); });
-      for (const EdgeHandle h : search_.near<Edge>(extent_of(f)))
+      search_.visit_points(narrow_extent_of(f), [&](VertexHandle v) { look_at_point(v, f); });
+      for (const EdgeHandle h : search_.near<Edge>(narrow_extent_of(f)))
         look_at_edge(store_.edges()[h], f);
     });
     for (VertexHandle v = seen.point; v <= search_.last_point(); ++v) {
@@ -271,7 +307,7 @@ class Arranging {
   template <class Visit>
   void visit_pairs(const Newcomers& seen, Visit&& visit) {
     search_.visit_polygons(seen.polygons.all(), [&](const Polygon& f) {
-      for (const PolygonHandle h : search_.near<Polygon>(extent_of(f))) {
+      for (const PolygonHandle h : search_.near<Polygon>(narrow_extent_of(f))) {
         if (seen.polygons.has(h) && h <= f.self) continue;
         visit(f, store_.polygons()[h]);
       }
@@ -340,8 +376,12 @@ class Arranging {
       any = true;
     }
     if (!any && is_last_) fail_crowded(last_);
-    leaves_some_ = leaves_some_ || !any;
+    if (!any) leave(cut);
     return any;
+  }
+  void leave(const std::vector<PolygonHandle>& polygons) {
+    leaves_some_ = true;
+    left_polygons_.insert(left_polygons_.end(), polygons.begin(), polygons.end());
   }
   [[nodiscard]] bool is_triangle(PolygonHandle h) const {
     const Polygon& f = store_.polygons()[h];
@@ -354,8 +394,11 @@ class Arranging {
   const std::vector<PolygonId>& names_;
   Newcomers near_, crossing_, lying_, joining_, overlap_;
   std::vector<Meeting> waiting_;  // edges that go through polygons, when they were found
-  bool is_last_ = true;           // the tolerance is the least
-  bool leaves_some_ = false;      // to a lesser one
+  double least_ = 0;
+  bool is_last_ = true;       // the tolerance is the least
+  bool leaves_some_ = false;  // to a lesser one: what meets these
+  HandleSet left_;
+  std::vector<PolygonHandle> left_polygons_;
   int crossing_rounds_ = 0;
   Point<3> last_{};  // where something was done
 };

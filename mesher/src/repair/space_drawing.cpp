@@ -34,6 +34,17 @@ void Drawing<3>::visit_edges(Visit&& visit) const {
   }
 }
 
+void Drawing<3>::note_drawn(VertexHandle s, VertexHandle t) {
+  if (s == t) return;
+  const EdgeHandle e = store_.record(s, t).self;
+  if (e >= drawn_.size()) drawn_.resize(2 * std::size_t{e} + 1);
+  drawn_[e] = true;
+}
+
+void Drawing<3>::start() {
+  visit_edges([&](VertexHandle s, VertexHandle t) { note_drawn(s, t); });
+}
+
 void Drawing<3>::use_edges() {
   std::vector<bool> wanted(used_.size());
   visit_edges([&](VertexHandle s, VertexHandle t) {
@@ -107,6 +118,9 @@ void Drawing<3>::apply(const Change& change) {
     const std::size_t i = sheet_of_.at(f);
     PolygonParts& parts = sheets_[i].parts;
     take(i);
+    for (const auto& [s, t] : declared.edges) {
+      if (store_.find_edge(s, t) == nullptr) note_drawn(s, t);  // where polygons cross
+    }
     parts.edges.insert(parts.edges.end(), declared.edges.begin(), declared.edges.end());
     parts.points.insert(parts.points.end(), declared.points.begin(), declared.points.end());
   }
@@ -114,7 +128,10 @@ void Drawing<3>::apply(const Change& change) {
   Chains chains;
   for (const auto& [h, through] : change.leads) {
     const Edge& e = store_.edges()[h];
-    chains.emplace(h, chain(e.a, e.b, through));
+    const auto& led = chains.emplace(h, chain(e.a, e.b, through)).first->second;
+    if (!is_drawn(h)) continue;
+    drawn_[h] = false;  // if it comes again, then by a cut
+    for (std::size_t i = 1; i < led.size(); ++i) note_drawn(led[i - 1], led[i]);
   }
   std::vector<std::size_t> changed;
   for (std::size_t i = 0; i < sheets_.size(); ++i) {
@@ -134,7 +151,7 @@ bool Drawing<3>::can_settle(PolygonHandle f, std::vector<Loop> loops) {
   rest.parts.loops = std::move(loops);
   rest.is_redrawn = true;
   try {
-    static_cast<void>(settled(rest, {}, tolerance(), store_));
+    static_cast<void>(settled(rest, {}, tolerance(), store_, [](PolygonParts&) {}));
   } catch (const Error&) {
     return false;
   }
@@ -187,14 +204,15 @@ void Drawing<3>::put(std::size_t i) {
   sheet_of_.emplace(f.self, i);
 }
 
-bool Drawing<3>::settle(const std::vector<PolygonId>& names) {
+bool Drawing<3>::settle(const std::vector<PolygonId>& names, const AddInside& add_inside) {
   bool any = false;
   const std::size_t count = sheets_.size();
   for (std::size_t i = 0; i < count; ++i) {
     if (sheets_[i].record != 0 || sheets_[i].is_gone()) continue;
     any = true;
     const std::size_t facet = sheets_[i].facet;
-    std::vector<PolygonParts> pieces = settled(sheets_[i], names[facet], tolerance(), store_);
+    std::vector<PolygonParts> pieces =
+        settled(sheets_[i], names[facet], tolerance(), store_, add_inside);
     const bool is_cut_up = sheets_[i].is_cut_up;
     sheets_[i].parts = {};
     for (std::size_t k = 0; k < pieces.size(); ++k) {

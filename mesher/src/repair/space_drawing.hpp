@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <unordered_map>
 #include <utility>
@@ -86,6 +87,10 @@ class Drawing<3> : public DrawnPoints<3> {
     std::vector<PolygonHandle> polygons;
   };
   [[nodiscard]] Arrivals take_arrivals() noexcept { return std::exchange(arrivals_, {}); }
+  /// Whether an edge is one that was drawn, or a part of one; else it is where a polygon was cut.
+  [[nodiscard]] bool is_drawn(EdgeHandle e) const { return e < drawn_.size() && drawn_[e]; }
+  /// What is drawn now is that.
+  void start();
   /// Leads edges, and declares; what is changed has yet to be settled.
   void apply(const Change& change);
   /// Whether there is a way to settle a live polygon of which this goes around the rest.
@@ -97,11 +102,14 @@ class Drawing<3> : public DrawnPoints<3> {
   /// Puts sheets into the store: cut where their loops meet, or into triangles if they are bent.
   /// Of equal ones that of the first facet stays. Returns whether it did something.
   /// Throws: Error(not_flat) for a polygon that is too bent. `names`: of facets.
-  bool settle(const std::vector<PolygonId>& names);
+  /// `add_inside(parts)` adds to a polygon that is to be cut what lies in it.
+  using AddInside = std::function<void(PolygonParts&)>;
+  bool settle(const std::vector<PolygonId>& names, const AddInside& add_inside);
 
  private:
   using Chains = std::unordered_map<EdgeHandle, std::vector<VertexHandle>>;
 
+  void note_drawn(VertexHandle s, VertexHandle t);
   void take(std::size_t sheet);
   void put(std::size_t sheet);
   [[nodiscard]] const std::vector<VertexHandle>* chain_of(VertexHandle s, VertexHandle t,
@@ -120,7 +128,7 @@ class Drawing<3> : public DrawnPoints<3> {
   std::vector<Sheet> sheets_;
   std::vector<Path> paths_;
   std::unordered_map<PolygonHandle, std::size_t> sheet_of_;
-  std::vector<bool> used_;  // by handles of edges
+  std::vector<bool> used_, drawn_;  // by handles of edges
   Arrivals arrivals_;
   std::vector<std::pair<std::size_t, std::size_t>> losses_;
 };
@@ -129,6 +137,7 @@ class Drawing<3> : public DrawnPoints<3> {
 /// if it has no area. sheet.parts: may have loops that meet, and points more than once.
 /// Throws: Error(not_flat), if it cannot be.
 [[nodiscard]] std::vector<PolygonParts> settled(const Sheet& sheet, PolygonId polygon,
-                                                double tolerance, FeatureStore& store);
+                                                double tolerance, FeatureStore& store,
+                                                const Drawing<3>::AddInside& add_inside);
 
 }  // namespace mesher::detail

@@ -258,6 +258,10 @@ TEST_CASE("bad .ply files are refused with the code and the place of the mistake
       {{"a.ply", head + "0 0 0\n1 z 1\n"}, "bad_number@9:3"},
       {{"a.ply", head + "0 0 0\n1 1 1\n2\n"}, "wrong_count@10:1"},
       {{"a.ply", head + "0 0 1\n0 0 1\n"}, "duplicate_point@9:1"},
+      // Values that the header does not tell of are the next row's, until that does not fit.
+      {{"a.ply", head + "0 0 0 8\n1 1 1\n"}, "wrong_count@8:7"},
+      {{"a.ply", head + "0 0 0 8\n1 z 1\n"}, "wrong_count@8:7"},
+      {{"a.ply", head + "0 0 0 1 1\n"}, "wrong_count@8:7"},
   });
   // Lines and columns say nothing of binary data.
   for (const bool big_endian : {false, true}) {

@@ -1,6 +1,7 @@
 // Repaired complexes: what each rule does.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "feature_ids.hpp"
 #include "mesher/meshing.hpp"
@@ -277,6 +278,37 @@ TEST_CASE("surfaces that touch up to rounding are made to touch") {
   const auto made =
       mesher::mesh(usual.file.graph, mesher::Options<3>{.domain = domain, .max_vertices = 20000});
   CHECK(made.mesh.vertices.size() < 20000);
+}
+
+namespace {
+
+// The sides of a prism around the z-axis, each of two triangles.
+void add_prism(PlcBuilder& b, int sides, double radius, double turn, double lo, double hi) {
+  const auto at = [&](int k, double z) {
+    const double angle = 6.283185307179586 * k / sides + turn;
+    return Point<3>{radius * std::cos(angle), radius * std::sin(angle), z};
+  };
+  for (int k = 0; k < sides; ++k) {
+    b.polygon({{at(k, lo), at(k + 1, lo), at(k + 1, hi)}});
+    b.polygon({{at(k, lo), at(k + 1, hi), at(k, hi)}});
+  }
+}
+
+}  // namespace
+
+// Sides are 10^-5 apart, about the tolerance, and their planes meet at 10^-4: points where edges
+// are near each other bend them, and what bent sides are cut into was near other edges again.
+TEST_CASE(
+    "surfaces that nearly coincide get points where their own edges are near, not where cuts are") {
+  constexpr int kSides = 32;
+  PlcBuilder b;
+  add_prism(b, kSides, 1, 0, 0, 0.25);
+  add_prism(b, kSides, 1.00001, 1e-4, -0.03, 0.24);
+  const Graph<3> plc = b.finish();
+  const Repaired<3> r = repair(plc);
+  CHECK(r.deviation <= 2 * r.tolerance);
+  CHECK(r.file.graph.points.size() <= 8 * kSides);  // a new one a corner at most
+  CHECK(repair(r.file).notes.empty());
 }
 
 TEST_CASE("a tolerance that cannot be is refused") {
