@@ -38,7 +38,8 @@ class InsertionRule {
 
   struct NewPoint {
     Point<D> p;
-    double nearest2;  // squared distance to the vertices of the gap ball around it
+    double nearest2;  // squared distance to the vertices of the gap ball around it, or less: no
+                      // vertex is nearer
     bool farther;     // clearly more than the length that asked for it, in spite of rounding
     int from = 0;     // the poor triangle's edge, as EdgeFilter names it
     int to = 0;
@@ -65,6 +66,7 @@ class InsertionRule {
   }
 
  protected:
+  [[nodiscard]] const MeshBox<D>& box() const noexcept { return box_; }
   [[nodiscard]] double rho2() const noexcept { return rho2_; }
   [[nodiscard]] bool is_centre(const CellOf<D>& cell, int corner) const;
   /// `growth2`: to be farther, p must be from all vertices by more than this times length2.
