@@ -38,13 +38,27 @@ class InsertionRule {
 
   struct NewPoint {
     Point<D> p;
-    double nearest2;  // squared distance to the vertices of the gap ball around it, or less: no
-                      // vertex is nearer
+    double nearest2;  // squared distance to the vertices of the gap ball around it
     bool farther;     // clearly more than the length that asked for it, in spite of rounding
     int from = 0;     // the poor triangle's edge, as EdgeFilter names it
     int to = 0;
     bool large = false;  // the simplex is not poor, but too large
     Point<D> corner{};   // the poor simplex's circumcentre; if it is hidden, where the clip is
+
+    /// A point of a lattice that will do as well where no feature is near.
+    struct OnLattice {
+      Point<D> p;
+      double clear2;  // no vertex is nearer; squared
+      double reach2;  // the one that has asked for it is no farther, as nearest2
+    };
+    std::optional<OnLattice> on_lattice{};
+    /// Moves it there. Requires: on_lattice.
+    void move() {
+      p = on_lattice->p;
+      nearest2 = on_lattice->clear2;
+      is_moved = true;
+    }
+    bool is_moved = false;
   };
   /// A point to insert now, in bucket b; none if v is complete up to b. `filter`: null skips none.
   [[nodiscard]] virtual std::optional<NewPoint> next_point(const CellOf<D>& cell, int b,

@@ -252,36 +252,23 @@ constexpr int kLattices = 4;
 
 template <int D>
 auto RadiusEdge<D>::on_lattice(const CellOf<D>& cell, const Poor& poor, const Point<D>& place) const
-    -> std::optional<NewPoint> {
+    -> std::optional<typename NewPoint::OnLattice> {
   const MeshBox<D>& box = Base::box();
   const double input = Base::promise().input;
   const double length = std::sqrt(poor.length2);
   const double radius = std::sqrt(squared_distance(poor.corner, poor.p));
   const double reach = std::sqrt(squared_distance(place, poor.p));
+  const Point<D> middle = middle_between(poor.p, poor.q);
   double spacing = std::scalbn(box.side, std::ilogb(kCoarsest * reach / box.side));
   for (int lattice = 0; lattice < kLattices; ++lattice, spacing /= 2) {
     const Point<D> y = box.nearest_in_lattice(place, spacing);
-    const double clear =
-        clearance<D>(middle_between(poor.p, poor.q), poor.corner, radius, y) * kSurely;
+    const double clear = clearance<D>(middle, poor.corner, radius, y) * kSurely;
     if (clear < rho_ * length || !box.contains(y)) continue;
     const double far2 = std::max(squared_distance(y, poor.p), squared_distance(y, poor.q));
     if (std::sqrt(far2) + input * length > input * clear) continue;
-    NewPoint found = Base::new_point(cell, y, poor.length2, Base::growth2());
-    found.nearest2 = clear * clear;
-    return found;
+    return {{y, clear * clear, Base::new_point(cell, y, poor.length2, Base::growth2()).nearest2}};
   }
   return std::nullopt;
-}
-
-template <int D>
-auto RadiusEdge<D>::vertex_near(const CellOf<D>& cell, const Poor& poor,
-                                const Point<D>& place) const -> NewPoint {
-  if constexpr (D >= 3) {
-    if (!poor.large) {
-      if (const auto found = on_lattice(cell, poor, place)) return *found;
-    }
-  }
-  return Base::new_point(cell, place, poor.length2, poor.large ? kAsFar : Base::growth2());
 }
 
 template <int D>
@@ -300,7 +287,11 @@ auto RadiusEdge<D>::next_point(const CellOf<D>& cell, int b, const EdgeFilter<D>
     place_of_best = x;
   });
   if (!best) return std::nullopt;
-  NewPoint found = vertex_near(cell, *best, place_of_best);
+  NewPoint found =
+      Base::new_point(cell, place_of_best, best->length2, best->large ? kAsFar : Base::growth2());
+  if constexpr (D >= 3) {
+    if (!best->large) found.on_lattice = on_lattice(cell, *best, place_of_best);
+  }
   found.from = best->from, found.to = best->to;
   found.corner = best->corner;
   found.large = best->large;

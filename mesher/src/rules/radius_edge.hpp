@@ -8,9 +8,9 @@
 // rho times that edge allows, or at the circumcentre if that is lower. Poor simplices go shortest
 // edge first.
 //
-// From space on a vertex is moved to a point of a lattice near that place, if that is as far from
-// all vertices as the bound asks [rules E1]: updates that differ nearby come to the same vertices
-// again.
+// From space on a point of a lattice near that place does as well, if it is as far from all
+// vertices as the bound asks, and no feature is near [rules E1]: updates that differ nearby come to
+// the same vertices again.
 //
 // A simplex that is too large where it is counts as one of length R, its circumradius, and is
 // filled at its circumcentre [rules A7.5].
@@ -65,11 +65,9 @@ class RadiusEdge final : public InsertionRule<D> {
   template <class Visit>
   void for_each_poor(const CellOf<D>& cell, Visit&& visit) const;
   [[nodiscard]] Point<D> place(const Poor& poor) const;
-  // The vertex for a simplex with this place.
-  [[nodiscard]] NewPoint vertex_near(const CellOf<D>& cell, const Poor& poor,
-                                     const Point<D>& place) const;
-  [[nodiscard]] std::optional<NewPoint> on_lattice(const CellOf<D>& cell, const Poor& poor,
-                                                   const Point<D>& place) const;
+  [[nodiscard]] std::optional<typename NewPoint::OnLattice> on_lattice(const CellOf<D>& cell,
+                                                                       const Poor& poor,
+                                                                       const Point<D>& place) const;
 
   double rho_;
   double height_;              // of the off-centre, in units of the edge
