@@ -1,10 +1,10 @@
 // The mesher against itself: static run, first run with the engine, updates.
 //
-//   mesher_bench [[3d:]N[:RHO]]...
+//   mesher_bench [[3d:]N[:RHO[:UPDATES]]]...
 //
 // default: 10000 100000 10000:1.1 3d:100000 (1000000 takes a minute and 2 GB, 3d:1000000 minutes
 // and 6 GB). Points uniform in the unit square or cube, rho = 1.4142 or 2 if not given, rule
-// radius_edge. One JSON line per figure:
+// radius_edge, 2000 points that come and 2000 that go. One JSON line per figure:
 //   static        vertices, seconds of the phases (by the clock), and in all, canonical output
 //                 included (of the process, as of all that follows)
 //   first_run     the same with the engine, its ratio to static, bytes of trace per output vertex
@@ -46,7 +46,7 @@ struct Random {
 };
 
 struct Sample {
-  std::vector<double> microseconds;
+  std::vector<double> microseconds, changed;
   double executed = 0, edges = 0, vertices = 0, simplices = 0;
 
   template <int D, class Edit>
@@ -58,7 +58,9 @@ struct Sample {
                            }));
     executed += static_cast<double>(change.calls.executed);
     edges += static_cast<double>(change.calls.edges);
-    vertices += static_cast<double>(change.vertices_added.size() + change.vertices_removed.size());
+    changed.push_back(
+        static_cast<double>(change.vertices_added.size() + change.vertices_removed.size()));
+    vertices += changed.back();
     simplices +=
         static_cast<double>(change.simplices_added.size() + change.simplices_removed.size());
   }
@@ -69,9 +71,11 @@ struct Sample {
         "%zu,\"median_"
         "us\":%.1f,"
         "\"p99_us\":%.1f,\"calls_executed\":%.1f,\"edges\":%.1f,\"vertices\":%.2f,"
+        "\"vertices_median\":%.0f,\"vertices_p99\":%.0f,"
         "\"simplices\":%.2f}\n",
         figure, dimension, n, rho, microseconds.size(), bench::quantile(microseconds, 0.5),
-        bench::quantile(microseconds, 0.99), executed / k, edges / k, vertices / k, simplices / k);
+        bench::quantile(microseconds, 0.99), executed / k, edges / k, vertices / k,
+        bench::quantile(changed, 0.5), bench::quantile(changed, 0.99), simplices / k);
   }
 };
 
@@ -103,11 +107,12 @@ void print_first_run(const mesher::MeshStats& s, std::size_t n, int dimension, d
 }
 
 template <int D>
-void bench_updates(mesher::BoxMesher<D>& m, std::vector<PointId> ids, Random& random) {
+void bench_updates(mesher::BoxMesher<D>& m, std::vector<PointId> ids, std::size_t updates,
+                   Random& random) {
   const std::size_t n = ids.size();
   Sample insert;
   Sample remove;
-  for (std::size_t k = 0; k < 2000; ++k) {
+  for (std::size_t k = 0; k < updates; ++k) {
     const PointId id{static_cast<std::int64_t>(n + k)};
     const Point<D> p = random.point<D>();
     const PointId gone = ids[k % n];
@@ -120,7 +125,7 @@ void bench_updates(mesher::BoxMesher<D>& m, std::vector<PointId> ids, Random& ra
 }
 
 template <int D>
-void bench_points(std::size_t n, std::optional<double> rho = {}) {
+void bench_points(std::size_t n, std::optional<double> rho, std::size_t updates) {
   Random random{n};
   mesher::Options<D> options;
   options.domain.hi.fill(1);
@@ -139,7 +144,7 @@ void bench_points(std::size_t n, std::optional<double> rho = {}) {
     static_cast<void>(m.mesh());
   });
   print_first_run(m.stats(), n, D, total, static_total);
-  bench_updates(m, ids, random);
+  bench_updates(m, ids, updates, random);
 }
 
 void bench_argument(std::string_view text) {
@@ -148,8 +153,9 @@ void bench_argument(std::string_view text) {
   char* rest = nullptr;
   const std::size_t n = std::strtoull(text.data(), &rest, 10);
   std::optional<double> rho;
-  if (*rest == ':') rho = std::strtod(rest + 1, nullptr);
-  in_space ? bench_points<3>(n, rho) : bench_points<2>(n, rho);
+  if (*rest == ':') rho = std::strtod(rest + 1, &rest);
+  const std::size_t updates = *rest == ':' ? std::strtoull(rest + 1, nullptr, 10) : 2000;
+  in_space ? bench_points<3>(n, rho, updates) : bench_points<2>(n, rho, updates);
 }
 
 }  // namespace

@@ -80,6 +80,17 @@ struct MeshBox {
     return side * (1.0 / boundary_steps - 1.0 / kBoundaryUnits);
   }
 
+  /// Steps of a lattice that differ by less are as near: they may be halves but for rounding.
+  static constexpr double kTie = 0x1p-20;
+  /// The point nearest to p of the body-centred lattice with this spacing, a power of two of the
+  /// side.
+  [[nodiscard]] Point<D> nearest_in_lattice(const Point<D>& p, double spacing) const;
+  /// Where along the axis x lies in spacings, to the next whole number; what is halfway but for
+  /// rounding goes down.
+  [[nodiscard]] double nearest_step(int axis, double x, double spacing) const {
+    return std::ceil((x - lo[axis]) / spacing - (0.5 + kTie));
+  }
+
   [[nodiscard]] Fixed<D> fixed(const Point<D>& p) const {
     constexpr double kSteps = static_cast<double>(std::uint64_t{1} << kLevels);
     Fixed<D> f;
@@ -140,6 +151,24 @@ struct MeshBox {
   template <class Visit>
   static void for_each_parent_around(const Cell<D>& c, Visit&& visit);
 };
+
+// Of the corners of the lattice's cubes, and of their middles, the nearest; a corner if both are as
+// near but for rounding.
+template <int D>
+Point<D> MeshBox<D>::nearest_in_lattice(const Point<D>& p, double spacing) const {
+  std::array<Point<D>, 2> nearest;
+  std::array<double, 2> off{};  // squared, in spacings
+  for (std::size_t n = 0; n < 2; ++n) {
+    const double shift = n == 0 ? 0 : 0.5;
+    for (int i = 0; i < D; ++i) {
+      const double step = nearest_step(i, p[i] - shift * spacing, spacing) + shift;
+      nearest[n][i] = lo[i] + spacing * step;
+      const double away = (p[i] - nearest[n][i]) / spacing;
+      off[n] += away * away;
+    }
+  }
+  return nearest[off[1] < off[0] - kTie ? 1 : 0];
+}
 
 template <int D>
 template <class Visit>

@@ -108,7 +108,8 @@ template <class S, int D>
 Filled fill_gaps(S& s, World<S, D>& w, CellOf<D>& gaps, Staying<S, D>& stays, const Vertex<D>& v,
                  int b) {
   Filled filled;
-  while (const auto point = w.rule->next_point(gaps, b, stays.filter())) {
+  while (auto point = w.rule->next_point(gaps, b, stays.filter())) {
+    if (point->on_lattice && has_room(stays, *point)) point->move();
     const Outcome outcome = yields(s, w, stays, *point, b);
     if (outcome == Outcome::waits || outcome == Outcome::refused) {
       stays.leave(gaps, point->from, point->to);

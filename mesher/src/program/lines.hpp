@@ -47,6 +47,16 @@ Outcome yields(S&, World<S, D>&, Staying<S, D>&, const typename InsertionRule<D>
   return Outcome::stands;
 }
 
+/// Whether a new point may be moved to the lattice.
+template <class S, int D>
+bool has_room(const Staying<S, D>&, const typename InsertionRule<D>::NewPoint&) {
+  return true;
+}
+template <class S>
+bool has_room(const Staying<S, 3>& beside, const InsertionRule<3>::NewPoint& x) {
+  return !beside.any() || beside.has_room(x);
+}
+
 /// Whether lines, polygons or slivers may concern Complete(v, b).
 template <class S>
 bool has_lines_at(const World<S, 2>& w, VertexRef<2> v) {

@@ -44,6 +44,21 @@ class InsertionRule {
     int to = 0;
     bool large = false;  // the simplex is not poor, but too large
     Point<D> corner{};   // the poor simplex's circumcentre; if it is hidden, where the clip is
+
+    /// A point of a lattice that will do as well where no feature is near.
+    struct OnLattice {
+      Point<D> p;
+      double clear2;  // no vertex is nearer; squared
+      double reach2;  // the one that has asked for it is no farther, as nearest2
+    };
+    std::optional<OnLattice> on_lattice{};
+    /// Moves it there. Requires: on_lattice.
+    void move() {
+      p = on_lattice->p;
+      nearest2 = on_lattice->clear2;
+      is_moved = true;
+    }
+    bool is_moved = false;
   };
   /// A point to insert now, in bucket b; none if v is complete up to b. `filter`: null skips none.
   [[nodiscard]] virtual std::optional<NewPoint> next_point(const CellOf<D>& cell, int b,
@@ -65,6 +80,7 @@ class InsertionRule {
   }
 
  protected:
+  [[nodiscard]] const MeshBox<D>& box() const noexcept { return box_; }
   [[nodiscard]] double rho2() const noexcept { return rho2_; }
   [[nodiscard]] bool is_centre(const CellOf<D>& cell, int corner) const;
   /// `growth2`: to be farther, p must be from all vertices by more than this times length2.

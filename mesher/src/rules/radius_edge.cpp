@@ -22,10 +22,21 @@ constexpr double kLargest = 1 - 0x1p-40;
 // simplices is not that lengths grow, but that no length is shorter than one that fits the limit.
 constexpr double kAsFar = 1 - 0x1p-20;
 
+// Clearances are computed to within 2^-45.
+constexpr double kSurely = 1 - 0x1p-20;
+
 // The height at which the apex over an edge of length 1 gives a circumradius of rho.
 double offcentre_height(double rho) {
   const double aim = rho * kAim;
   return aim + std::sqrt(aim * aim - 0.25);
+}
+
+template <std::size_t N>
+std::array<double, N> middle_between(const std::array<double, N>& p,
+                                     const std::array<double, N>& q) {
+  std::array<double, N> middle;
+  for (std::size_t i = 0; i < N; ++i) middle[i] = p[i] + (q[i] - p[i]) / 2;
+  return middle;
 }
 
 }  // namespace
@@ -44,6 +55,7 @@ template <int D>
 RadiusEdge<D>::RadiusEdge(const Options<D>& options, const MeshBox<D>& box,
                           const LimitsOf<D>& limits)
     : Base(options, box, promise_for(options.rho)),
+      rho_(options.rho),
       height_(offcentre_height(options.rho)),
       limits_(&limits) {}
 
@@ -203,11 +215,8 @@ void RadiusEdge<D>::for_each_poor(const CellOf<D>& cell, Visit&& visit) const {
 // On the line from the middle of p q to the circumcentre.
 template <int D>
 Point<D> RadiusEdge<D>::place(const Poor& poor) const {
-  Point<D> middle, up;
-  for (std::size_t i = 0; i < D; ++i) {
-    middle[i] = poor.p[i] + (poor.q[i] - poor.p[i]) / 2;
-    up[i] = poor.corner[i] - middle[i];
-  }
+  Point<D> middle = middle_between(poor.p, poor.q), up;
+  for (std::size_t i = 0; i < D; ++i) up[i] = poor.corner[i] - middle[i];
   const double highest = height_ * std::sqrt(poor.length2);
   const double height = std::sqrt(squared(up));
   if (poor.large || (!poor.hidden && height <= highest)) return poor.corner;
@@ -217,32 +226,75 @@ Point<D> RadiusEdge<D>::place(const Poor& poor) const {
 
 // --- Everywhere ------------------------------------------------------------------------------
 
+// How far y, in the ball of a poor simplex, is from all vertices at least (paper map (g)).
+// `middle`: of the shortest edge, whose ends are on the sphere.
+template <int D>
+double clearance(const Point<D>& middle, const Point<D>& centre, double radius, const Point<D>& y) {
+  double height = 0, depth = 0, off = 0;
+  for (std::size_t i = 0; i < D; ++i) {
+    const double up = centre[i] - middle[i];
+    height += (y[i] - middle[i]) * up;
+    depth += up * up;
+    off += (y[i] - centre[i]) * (y[i] - centre[i]);
+  }
+  depth = std::sqrt(depth);
+  height /= depth;
+  off = std::sqrt(off);
+  const double to_sphere = radius - off;
+  const bool is_nearest_behind = depth * off < radius * (depth - height);
+  return is_nearest_behind ? std::max(to_sphere, height) : to_sphere;
+}
+
+// The coarsest of the lattices that has a point that will do, in units of the place's distance from
+// the edge's ends; and how many there are, each twice as fine as the one before.
+constexpr double kCoarsest = 1;
+constexpr int kLattices = 4;
+
+template <int D>
+auto RadiusEdge<D>::on_lattice(const CellOf<D>& cell, const Poor& poor, const Point<D>& place) const
+    -> std::optional<typename NewPoint::OnLattice> {
+  const MeshBox<D>& box = Base::box();
+  const double input = Base::promise().input;
+  const double length = std::sqrt(poor.length2);
+  const double radius = std::sqrt(squared_distance(poor.corner, poor.p));
+  const double reach = std::sqrt(squared_distance(place, poor.p));
+  const Point<D> middle = middle_between(poor.p, poor.q);
+  double spacing = std::scalbn(box.side, std::ilogb(kCoarsest * reach / box.side));
+  for (int lattice = 0; lattice < kLattices; ++lattice, spacing /= 2) {
+    const Point<D> y = box.nearest_in_lattice(place, spacing);
+    const double clear = clearance<D>(middle, poor.corner, radius, y) * kSurely;
+    if (clear < rho_ * length || !box.contains(y)) continue;
+    const double far2 = std::max(squared_distance(y, poor.p), squared_distance(y, poor.q));
+    if (std::sqrt(far2) + input * length > input * clear) continue;
+    return {{y, clear * clear, Base::new_point(cell, y, poor.length2, Base::growth2()).nearest2}};
+  }
+  return std::nullopt;
+}
+
 template <int D>
 auto RadiusEdge<D>::next_point(const CellOf<D>& cell, int b, const EdgeFilter<D>* filter) const
     -> std::optional<NewPoint> {
-  double shortest2 = std::numeric_limits<double>::infinity();
-  Point<D> point{};
-  Point<D> corner{};
-  int from = 0;
-  int to = 0;
-  bool large = false;
+  std::optional<Poor> best;
+  Point<D> place_of_best{};
   for_each_poor(cell, [&](const Poor& poor) {
-    if (Base::buckets().bucket(poor.length2) > b || poor.length2 > shortest2) return;
+    if (Base::buckets().bucket(poor.length2) > b) return;
+    if (best && poor.length2 > best->length2) return;
     const Point<D> x = place(poor);
     // Shortest edge first; ties by the place of the new vertex.
-    if (poor.length2 == shortest2 && point < x) return;
+    if (best && poor.length2 == best->length2 && place_of_best < x) return;
     if (skipped(poor, cell, filter)) return;
-    shortest2 = poor.length2;
-    point = x;
-    corner = poor.corner;
-    from = poor.from, to = poor.to;
-    large = poor.large;
+    best = poor;
+    place_of_best = x;
   });
-  if (std::isinf(shortest2)) return std::nullopt;
-  NewPoint found = Base::new_point(cell, point, shortest2, large ? kAsFar : Base::growth2());
-  found.from = from, found.to = to;
-  found.corner = corner;
-  found.large = large;
+  if (!best) return std::nullopt;
+  NewPoint found =
+      Base::new_point(cell, place_of_best, best->length2, best->large ? kAsFar : Base::growth2());
+  if constexpr (D >= 3) {
+    if (!best->large) found.on_lattice = on_lattice(cell, *best, place_of_best);
+  }
+  found.from = best->from, found.to = best->to;
+  found.corner = best->corner;
+  found.large = best->large;
   return found;
 }
 

@@ -8,6 +8,10 @@
 // rho times that edge allows, or at the circumcentre if that is lower. Poor simplices go shortest
 // edge first.
 //
+// From space on a point of a lattice near that place does as well, if it is as far from all
+// vertices as the bound asks, and no feature is near [rules E1]: updates that differ nearby come to
+// the same vertices again.
+//
 // A simplex that is too large where it is counts as one of length R, its circumradius, and is
 // filled at its circumcentre [rules A7.5].
 #pragma once
@@ -61,7 +65,11 @@ class RadiusEdge final : public InsertionRule<D> {
   template <class Visit>
   void for_each_poor(const CellOf<D>& cell, Visit&& visit) const;
   [[nodiscard]] Point<D> place(const Poor& poor) const;
+  [[nodiscard]] std::optional<typename NewPoint::OnLattice> on_lattice(const CellOf<D>& cell,
+                                                                       const Poor& poor,
+                                                                       const Point<D>& place) const;
 
+  double rho_;
   double height_;              // of the off-centre, in units of the edge
   const LimitsOf<D>* limits_;  // null: there are none
 };

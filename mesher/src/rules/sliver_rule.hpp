@@ -54,10 +54,7 @@ template <class Visit>
 void SliverRule::for_each_place(const Point<3>& centre, double radius2, Visit&& visit) const {
   const double spacing = std::scalbn(box_.side, std::ilogb(std::sqrt(radius2) / (2 * box_.side)));
   std::array<double, 3> nearest;
-  for (std::size_t i = 0; i < 3; ++i) {
-    // What is halfway but for rounding goes down.
-    nearest[i] = std::ceil((centre[i] - box_.lo[i]) / spacing - (0.5 + 0x1p-20));
-  }
+  for (int i = 0; i < 3; ++i) nearest[i] = box_.nearest_step(i, centre[i], spacing);
   const double margin = kOffSide * box_.side;
   for (int k = 0; k < 54; ++k) {
     const std::array<int, 3> step{k % 3 - 1, k / 3 % 3 - 1, k / 9 % 3 - 1};

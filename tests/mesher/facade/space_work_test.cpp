@@ -45,3 +45,26 @@ TEST_CASE("a triangle concerns the calls that have asked for features as far as 
   }
   CHECK(calls < 600 * 2 * kSquares);  // 840 each, were all told whose cells' surroundings it is in
 }
+
+TEST_CASE("a point that moves a little changes the vertices around it, and few others") {
+  const mesher::Options<3> options{.domain = {{0, 0, 0}, {1, 1, 1}}};
+  mesher::BoxMesher<3> m(options);
+  mesher::SplitMix64 random(19);
+  constexpr std::int64_t kPoints = 1000;
+  std::vector<mesher::Point<3>> places;
+  for (std::int64_t i = 0; i < kPoints; ++i) {
+    places.push_back({random.unit(), random.unit(), random.unit()});
+    m.insert(PointId{i}, places.back());
+  }
+  m.update();
+  std::size_t changed = 0;
+  constexpr int kMoves = 200;
+  for (int i = 0; i < kMoves; ++i) {
+    const std::size_t moved = random.below(places.size());
+    for (double& x : places[moved]) x += 1e-6 * (0.5 - x);
+    m.move(PointId{static_cast<std::int64_t>(moved)}, places[moved]);
+    const auto change = m.update();
+    changed += change.vertices_added.size() + change.vertices_removed.size();
+  }
+  CHECK(changed < 8 * kMoves);
+}
