@@ -109,7 +109,6 @@ Filled fill_gaps(S& s, World<S, D>& w, CellOf<D>& gaps, Staying<S, D>& stays, co
                  int b) {
   Filled filled;
   while (auto point = w.rule->next_point(gaps, b, stays.filter())) {
-    if (point->on_lattice && has_room(stays, *point)) point->move();
     const Outcome outcome = yields(s, w, stays, *point, b);
     if (outcome == Outcome::waits || outcome == Outcome::refused) {
       stays.leave(gaps, point->from, point->to);
@@ -117,6 +116,7 @@ Filled fill_gaps(S& s, World<S, D>& w, CellOf<D>& gaps, Staying<S, D>& stays, co
     }
     filled.inserts = filled.inserts || outcome == Outcome::yielded;
     if (outcome != Outcome::stands) continue;
+    if (point->on_lattice && has_room(stays, *point)) point->move();
     const std::optional<VertexRef<D>> x = fill_at(s, w, gaps, v, b, *point);
     if (!x) {
       filled.fails = true;

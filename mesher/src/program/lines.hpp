@@ -47,7 +47,7 @@ Outcome yields(S&, World<S, D>&, Staying<S, D>&, const typename InsertionRule<D>
   return Outcome::stands;
 }
 
-/// Whether a new point may be moved to the lattice.
+/// Whether a new point that stands may be moved to the lattice.
 template <class S, int D>
 bool has_room(const Staying<S, D>&, const typename InsertionRule<D>::NewPoint&) {
   return true;

@@ -75,24 +75,23 @@ class Staying<S, 3> final : public EdgeFilter<3> {
     return inserts;
   }
 
-  /// Whether x may be moved to the lattice: it yields to no feature there, and none is so near that
-  /// the guard has a say.
+  /// Whether x yields: a vertex is inserted instead, on a feature; or is refused.
+  Outcome yields(S& s, const typename InsertionRule<3>::NewPoint& x, int b) {
+    const auto y = yield(near_, x.p, std::sqrt(x.nearest2));
+    if (world_.guarded && !x.large && is_refused(s, x, y)) return Outcome::refused;
+    if (!y) return Outcome::stands;
+    insert(s, helps(*y, x.corner) ? *y : instead_of(x.corner), b);
+    return Outcome::yielded;
+  }
+
+  /// Whether x, which stands, may be moved to the lattice: it yields to no feature there either,
+  /// and none is so near that the guard has a say.
   [[nodiscard]] bool has_room(const typename InsertionRule<3>::NewPoint& x) const {
     const double length2 = squared_distance(vertex(cell_, x.from).p, vertex(cell_, x.to).p);
     const double reach =
         std::max(kYields * std::sqrt(x.on_lattice->reach2), kNearNew * std::sqrt(length2));
     return near_.nearest_edge(x.on_lattice->p, reach) == nullptr &&
            near_.nearest_under(x.on_lattice->p, reach) == nullptr;
-  }
-
-  /// Whether x yields: a vertex is inserted instead, on a feature; or is refused.
-  Outcome yields(S& s, const typename InsertionRule<3>::NewPoint& x, int b) {
-    if (x.is_moved) return Outcome::stands;
-    const auto y = yield(near_, x.p, std::sqrt(x.nearest2));
-    if (world_.guarded && !x.large && is_refused(s, x, y)) return Outcome::refused;
-    if (!y) return Outcome::stands;
-    insert(s, helps(*y, x.corner) ? *y : instead_of(x.corner), b);
-    return Outcome::yielded;
   }
 
  private:

@@ -49,16 +49,14 @@ class InsertionRule {
     struct OnLattice {
       Point<D> p;
       double clear2;  // no vertex is nearer; squared
-      double reach2;  // the one that has asked for it is no farther, as nearest2
+      double reach2;  // squared distance to the vertices of the gap ball, as nearest2
     };
     std::optional<OnLattice> on_lattice{};
     /// Moves it there. Requires: on_lattice.
     void move() {
       p = on_lattice->p;
       nearest2 = on_lattice->clear2;
-      is_moved = true;
     }
-    bool is_moved = false;
   };
   /// A point to insert now, in bucket b; none if v is complete up to b. `filter`: null skips none.
   [[nodiscard]] virtual std::optional<NewPoint> next_point(const CellOf<D>& cell, int b,

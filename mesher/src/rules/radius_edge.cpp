@@ -263,9 +263,10 @@ auto RadiusEdge<D>::on_lattice(const CellOf<D>& cell, const Poor& poor, const Po
   for (int lattice = 0; lattice < kLattices; ++lattice, spacing /= 2) {
     const Point<D> y = box.nearest_in_lattice(place, spacing);
     const double clear = clearance<D>(middle, poor.corner, radius, y) * kSurely;
-    if (clear < rho_ * length || !box.contains(y)) continue;
+    // Neither holds of what is no number: a tile may see stars that are flat for a while.
+    if (!(clear >= rho_ * length) || !box.contains(y)) continue;
     const double far2 = std::max(squared_distance(y, poor.p), squared_distance(y, poor.q));
-    if (std::sqrt(far2) + input * length > input * clear) continue;
+    if (!(std::sqrt(far2) + input * length <= input * clear)) continue;
     return {{y, clear * clear, Base::new_point(cell, y, poor.length2, Base::growth2()).nearest2}};
   }
   return std::nullopt;

@@ -58,10 +58,16 @@ class Watched final : public InsertionRule<3> {
 
   std::optional<NewPoint> next_point(const VoronoiCell3& cell, int b,
                                      const EdgeFilter<3>* filter) const override {
-    const auto point = rule_->next_point(cell, b, filter);
+    auto point = rule_->next_point(cell, b, filter);
     const double clip = buckets().clip_radius(b);
     farthest_.read = std::max(farthest_.read, 2 * std::sqrt(cell.reach2()) / clip);
     if (!point) return point;
+    ++farthest_.all;
+    if (point->on_lattice) {
+      ++farthest_.on_lattice;
+      point->move();
+      point->on_lattice.reset();
+    }
     farthest_.outside |= !box_.contains(point->p);
     farthest_.inserted = std::max(farthest_.inserted, distance(point->p, cell.center().p) / clip);
     const double nearest = std::sqrt(point->nearest2);
@@ -86,9 +92,6 @@ class Watched final : public InsertionRule<3> {
     });
     farthest_.nearest = std::min(farthest_.nearest, to_vertex / nearest);
     farthest_.early += buckets().bucket(to_vertex * to_vertex * (1 + 1e-9)) <= b;
-    ++farthest_.all;
-    farthest_.on_lattice +=
-        p == box_.nearest_in_lattice(p, std::exp2(std::floor(std::log2(nearest / 16))));
   }
 
   Limits<3> limits_;

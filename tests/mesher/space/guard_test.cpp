@@ -193,8 +193,8 @@ TEST_CASE("a feature alone is refined to the size of its parts, however far othe
 
 TEST_CASE("the guard says beside which feature it gave in, and where") {
   const Graph<3> plc = mesher::generate_plc({PlcKind::pages});
-  const Mesh<3> mesh = mesh_statically(plc, options_for(plc, 1.42, 10000));
-  const mesher::GuardReport report = mesher::guard_report(mesh, plc, 1.42);
+  const Mesh<3> mesh = mesh_statically(plc, options_for(plc, 1.3, 20000));
+  const mesher::GuardReport report = mesher::guard_report(mesh, plc, 1.3);
   REQUIRE(!report.places.empty());
   std::size_t all = 0;
   for (const mesher::PoorBeside& place : report.places) {
