@@ -3,11 +3,13 @@
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "any_id.hpp"
 #include "facade/box_mesher.hpp"
+#include "mesher/error.hpp"
 #include "random_complex.hpp"
 #include "traces/audit.hpp"
 #include "traces/distance.hpp"
@@ -35,12 +37,24 @@ class Followed {
     fresh.update();
     return traces::Recorder(fresh.engine()).trace();
   }
-  mesher::CallCounts put(int cube, const Complex& part) {
+  // Nothing if it has no mesh: one in a thousand has angles at which vertices come ever closer.
+  std::optional<mesher::CallCounts> put(int cube, const Complex& part) {
     put(mesher_, cube, part);
-    parts_[cube] = part;
-    return mesher_.update().calls;
+    try {
+      const mesher::CallCounts calls = mesher_.update().calls;
+      parts_[cube] = part;
+      return calls;
+    } catch (const mesher::Error& error) {
+      REQUIRE(error.code() == mesher::ErrorCode::too_close);
+      BoxMesher<3> fresh(options());
+      for (const auto& [other, known] : parts_) put(fresh, other, known);
+      put(fresh, cube, part);
+      REQUIRE_THROWS_WITH(fresh.update(), error.what());
+      mesher_.discard_edits();
+      return std::nullopt;
+    }
   }
-  mesher::CallCounts take(int cube) {
+  std::optional<mesher::CallCounts> take(int cube) {
     const Complex& part = parts_.at(cube);
     for (std::size_t i = 0; i < part.faces.size(); ++i) mesher_.remove_polygon(id(cube, i));
     for (std::size_t i = 0; i < part.segments.size(); ++i) {
@@ -96,6 +110,7 @@ std::string drift(const traces::Trace& after, const traces::Trace& fresh) {
 
 TEST_CASE("edits of complexes leave the trace of a fresh run, at twice its distance at most",
           "[Theorem 1.4.4]") {
+  int refused = 0;
   for (const std::uint64_t seed : {1, 2, 3}) {
     support::RandomComplex random(seed);
     Followed f;
@@ -104,15 +119,16 @@ TEST_CASE("edits of complexes leave the trace of a fresh run, at twice its dista
     for (int edit = 0; edit < 24; ++edit) {
       const int cube = static_cast<int>(random.below(kAcross * kAcross * kAcross));
       const bool goes = f.has(cube);
-      const mesher::CallCounts calls =
-          goes ? f.take(cube) : f.put(cube, random.part(Followed::corner(cube)));
+      const auto calls = goes ? f.take(cube) : f.put(cube, random.part(Followed::corner(cube)));
+      refused += calls ? 0 : 1;
+      if (!calls) continue;
       const traces::Trace after = f.trace();
       INFO("seed " << seed << ", edit " << edit << (goes ? " goes" : " comes"));
       REQUIRE(drift(after, f.fresh_trace()) == "");
       REQUIRE(traces::check_concise(after).surplus == 0);
       REQUIRE(traces::check_monotone(before, after).moved == 0);
       const std::uint64_t apart = traces::distance(before, after).all.distance();
-      const std::uint64_t done = calls.created + calls.discarded + calls.executed;
+      const std::uint64_t done = calls->created + calls->discarded + calls->executed;
       CHECK(done <= 4 * apart);
       work += done, distance += apart;
       before = after;
@@ -121,4 +137,5 @@ TEST_CASE("edits of complexes leave the trace of a fresh run, at twice its dista
     CHECK(distance > 10000);
     CHECK(work <= 2 * distance);
   }
+  CHECK(refused <= 1);
 }

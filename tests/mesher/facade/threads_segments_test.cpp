@@ -541,7 +541,8 @@ struct SplitInput : mesher::detail::Names {
     for_each_feature([&](auto& v) {
       world.features.find_level(v, path);
       if (!all.owns(self, v.p)) return;
-      edits.push_back({v.p, std::nullopt, Tile::Located(v.level, world.limits.pitch(v.p), world.vertices.role(v))});
+      edits.push_back({v.p, std::nullopt,
+                       Tile::Located(v.level, world.limits.pitch(v.p), world.vertices.role(v))});
     });
     const auto common = std::make_shared<mesher::detail::CommonOrders<2>>();
     auto& lines = common->lines;
