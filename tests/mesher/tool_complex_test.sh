@@ -278,15 +278,15 @@ sed 's/ 8$/ 9/' good.face >cut.face
 expect 1 'polygon 8: the edge from ' check cut.node --input two.poly
 
 echo "== complexes: below rho = 2 the guard says where it gave in, and check excuses that alone"
-expect 0 ' tetrahedra stay poor beside it, up to ' mesh pages.poly --rho 1.35 --box -o guard.node \
+expect 0 ' tetrahedra stay poor beside it, up to ' mesh pages.poly --rho 1.31 --box -o guard.node \
   --stats guard.json
 grep -q '"gave_in"' guard.json || fail 'no "gave_in" in --stats'
-expect 0 ' left poor beside features' check guard.node --input pages.poly --rho 1.35
-expect 1 'error[bad_quality]: quality: ' check guard.node --input pages.poly --rho 1.3
+expect 0 ' left poor beside features' check guard.node --input pages.poly --rho 1.31
+expect 1 'error[bad_quality]: quality: ' check guard.node --input pages.poly --rho 1.2
 printf '+point 900 .5 .5 .9\n-point 900\n+point 901 .1 .2 .2\n' >guard.txt
 for engine in '' --static; do
   # shellcheck disable=SC2086
-  expect 0 ' tetrahedra stay poor beside it, up to ' edit pages.poly --rho 1.35 --script guard.txt \
+  expect 0 ' tetrahedra stay poor beside it, up to ' edit pages.poly --rho 1.31 --script guard.txt \
     $engine --stats "guard$engine.jsonl"
   tail -n +2 "guard$engine.jsonl" | sed -n 's/.*\("gave_in":.*\),"kept":.*/\1/p' >"gave_in$engine"
 done
