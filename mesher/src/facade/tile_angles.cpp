@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "facade/angle_finder.hpp"
+#include "facade/held.hpp"
 #include "facade/tile_mesh.hpp"
 #include "sets/make_set.hpp"
 #include "tiles/on_threads.hpp"
@@ -53,22 +54,6 @@ NewInTile named(const NewPlaces& places, const TileMesh& mesh) {
   return all;
 }
 
-// While it lives, several threads may look for segments and features.
-class HeldWorld {
- public:
-  explicit HeldWorld(World<sac::Scope, 2>& world) : world_(world) { hold(true); }
-  ~HeldWorld() { hold(false); }
-  HeldWorld(const HeldWorld&) = delete;
-  HeldWorld& operator=(const HeldWorld&) = delete;
-
- private:
-  void hold(bool held) noexcept {
-    world_.segments.store().hold(held);
-    world_.features.hold(held);
-  }
-  World<sac::Scope, 2>& world_;
-};
-
 AngleParts parts_of(const TileMesh& mesh, const NewInTile& come, double rho) {
   return AngleFinder<TileMesh>(mesh, rho).parts(come.triangles, come.corners);
 }
@@ -83,7 +68,8 @@ AngleNews joined(std::vector<AngleParts> parts) {
 
 AngleNews all_angles(World<sac::Scope, 2>& whole, const TiledMesher<2>& tiles, double rho) {
   if (whole.segments.store().live() == 0) return {};
-  const HeldWorld held(whole);
+  const Held segments(whole.segments.store());
+  const Held features(whole.features);
   std::vector<AngleParts> parts(tiles.size());
   on_threads(tiles.size(), [&](std::size_t t) {
     const TileMesh mesh(whole, tiles[t], true);
@@ -95,7 +81,8 @@ AngleNews all_angles(World<sac::Scope, 2>& whole, const TiledMesher<2>& tiles, d
 AngleNews new_angles(World<sac::Scope, 2>& whole, const TiledMesher<2>& tiles, double rho,
                      const std::vector<std::array<Point<2>, 3>>& triangles) {
   if (whole.segments.store().live() == 0) return {};
-  const HeldWorld held(whole);
+  const Held segments(whole.segments.store());
+  const Held features(whole.features);
   const std::vector<NewPlaces> places = by_tile(tiles, triangles);
   std::vector<AngleParts> parts(tiles.size());
   constexpr std::size_t kLittle = 256;  // triangles, for which no thread need be begun

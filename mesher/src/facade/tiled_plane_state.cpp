@@ -5,6 +5,7 @@
 #include <map>
 
 #include "facade/asking.hpp"
+#include "facade/held.hpp"
 #include "facade/tile_angles.hpp"
 #include "facade/tile_changes.hpp"
 #include "facade/whole_change.hpp"
@@ -30,20 +31,6 @@ std::optional<T>& at(std::vector<std::optional<T>>& all, std::uint32_t handle) {
   if (handle >= all.size()) all.resize(handle + std::size_t{1});
   return all[handle];
 }
-
-// While it lives, several threads may look for features.
-class HeldPoints {
- public:
-  explicit HeldPoints(Features<sac::Scope, 2>& features) : features_(features) {
-    features_.hold(true);
-  }
-  ~HeldPoints() { features_.hold(false); }
-  HeldPoints(const HeldPoints&) = delete;
-  HeldPoints& operator=(const HeldPoints&) = delete;
-
- private:
-  Features<sac::Scope, 2>& features_;
-};
 
 }  // namespace
 
@@ -97,7 +84,7 @@ auto TiledPlaneState::build(const Tiles::Ask& ask) -> std::unique_ptr<Tiles> {
     lines.segments.push_back({s.self, s.a, s.b, std::nullopt, zones});
   });
   world_->leaves.for_each([&](const Leaf& leaf) { lines.leaves.push_back({leaf.piece, true}); });
-  const HeldPoints held(world_->features);
+  const Held held(world_->features);
   tiles->first_run(by_tile, ask, common);
   return tiles;
 }
@@ -215,7 +202,7 @@ Change<2> TiledPlaneState::propagate(const Edits<2>& edits, const RunControl& co
     if (!news.common.is_empty()) {
       common = std::make_shared<const CommonOrders<2>>(std::move(news.common));
     }
-    const HeldPoints held(world_->features);
+    const Held held(world_->features);
     tiles_->update(news.by_tile, ask, last, common);
   };
   ask_ = asking(control, Phase::update, &fail_stopped);
@@ -224,7 +211,7 @@ Change<2> TiledPlaneState::propagate(const Edits<2>& edits, const RunControl& co
     engine_->propagate(run_tiles);
   } catch (...) {
     take_back(news);
-    const HeldPoints held(world_->features);
+    const Held held(world_->features);
     tiles_->take_back(news.by_tile, common);  // before records of ends are freed
     commit();
     forget();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "facade/held.hpp"
 #include "facade/tile_changes.hpp"
 #include "facade/whole_change.hpp"
 #include "geometry/box.hpp"
@@ -26,19 +27,6 @@ bool may_have_points_tiled(const Options<D>& options, const Edits<D>& edits) {
   return options.threads > 1 && options.rule == Rule::radius_edge && edits.points.size() > 1 &&
          !edits.polygons.has_edits() && !options.record_weights && !has_slivers(options);
 }
-
-// While it lives, several threads may look for features.
-template <int D>
-class HeldFeatures {
- public:
-  explicit HeldFeatures(FeatureTree<D>& features) : features_(features) { features_.hold(true); }
-  ~HeldFeatures() { features_.hold(false); }
-  HeldFeatures(const HeldFeatures&) = delete;
-  HeldFeatures& operator=(const HeldFeatures&) = delete;
-
- private:
-  FeatureTree<D>& features_;
-};
 
 }  // namespace
 
@@ -148,7 +136,7 @@ auto TiledState<D>::build(const typename TiledMesher<D>::Ask& ask)
       if (tile) by_tile[*tile].push_back({v.p, std::nullopt, Located(v.level, limits_.pitch(v.p))});
     });
   });
-  const HeldFeatures held(features_);
+  const Held held(features_);
   tiles->first_run(by_tile, ask);
   return tiles;
 }
@@ -321,12 +309,12 @@ Change<D> TiledState<D>::propagate(const Edits<D>& edits, const RunControl& cont
         common = std::make_shared<const CommonOrders<D>>(std::move(moves.common));
       }
     });
-    const HeldFeatures held(features_);
+    const Held held(features_);
     tiles_->update(by_tile, ask, last, common);
   } catch (...) {
     const bool limited = limits_.any() || (moves.limits && moves.limits->any());
     together(peers_, [&] { take_back(std::move(moves)); });
-    const HeldFeatures held(features_);
+    const Held held(features_);
     tiles_->take_back(by_tile, common);
     if (tiles_->is_broken()) tiles_ = build({});  // the mesh is a function of the points
     in_tiles([] { throw; }, limited && !is_judged);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 #include "geometry/centroid.hpp"
 
@@ -135,6 +136,7 @@ auto RadiusEdge<D>::shortest_edge(const CellOf<D>& cell, int t) const -> Poor {
   const auto look = [&](const Point<D>& a, const Point<D>& b, int from, int to) {
     const double length2 = squared_distance(a, b);
     if (length2 > best.length2) return;
+    if (b < a) std::swap(from, to);
     const auto& [low, high] = std::minmax(a, b);
     if (length2 == best.length2 && std::tie(best.p, best.q) < std::tie(low, high)) return;
     best.length2 = length2, best.p = low, best.q = high, best.from = from, best.to = to;
@@ -245,11 +247,11 @@ double clearance(const Point<D>& middle, const Point<D>& centre, double radius, 
   return is_nearest_behind ? std::max(to_sphere, height) : to_sphere;
 }
 
-// The coarsest of the lattices that has a point that will do, in units of the place's distance from
-// the edge's ends; and how many there are, each twice as fine as the one before.
-constexpr double kCoarsest = 1;
+// How many lattices there are. The first is about as coarse as the place is far from the edge's
+// ends, each of the others twice as fine as the one before.
 constexpr int kLattices = 4;
 
+// On the coarsest that has a point that will do.
 template <int D>
 auto RadiusEdge<D>::on_lattice(const CellOf<D>& cell, const Poor& poor, const Point<D>& place) const
     -> std::optional<typename NewPoint::OnLattice> {
@@ -259,7 +261,7 @@ auto RadiusEdge<D>::on_lattice(const CellOf<D>& cell, const Poor& poor, const Po
   const double radius = std::sqrt(squared_distance(poor.corner, poor.p));
   const double reach = std::sqrt(squared_distance(place, poor.p));
   const Point<D> middle = middle_between(poor.p, poor.q);
-  double spacing = std::scalbn(box.side, std::ilogb(kCoarsest * reach / box.side));
+  double spacing = std::scalbn(box.side, std::ilogb(reach / box.side));
   for (int lattice = 0; lattice < kLattices; ++lattice, spacing /= 2) {
     const Point<D> y = box.nearest_in_lattice(place, spacing);
     const double clear = clearance<D>(middle, poor.corner, radius, y) * kSurely;
@@ -281,8 +283,11 @@ auto RadiusEdge<D>::next_point(const CellOf<D>& cell, int b, const EdgeFilter<D>
     if (Base::buckets().bucket(poor.length2) > b) return;
     if (best && poor.length2 > best->length2) return;
     const Point<D> x = place(poor);
-    // Shortest edge first; ties by the place of the new vertex.
-    if (best && poor.length2 == best->length2 && place_of_best < x) return;
+    // Shortest edge first. Two simplices, or two diagonals, may ask for one place.
+    const auto order = [](const Poor& one, const Point<D>& at) {
+      return std::tie(one.length2, at, one.corner, one.p, one.q, one.large);
+    };
+    if (best && order(*best, place_of_best) < order(poor, x)) return;
     if (skipped(poor, cell, filter)) return;
     best = poor;
     place_of_best = x;

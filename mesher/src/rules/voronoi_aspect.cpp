@@ -2,6 +2,7 @@
 #include "rules/voronoi_aspect.hpp"
 
 #include <limits>
+#include <tuple>
 
 namespace mesher::detail {
 
@@ -37,7 +38,8 @@ auto VoronoiAspect<D>::next_point(const CellOf<D>& cell, int, const EdgeFilter<D
     }
     if (cell.corner2(i) < farthest2 || !Base::exceeds(cell.corner2(i), shortest2)) continue;
     const Point<D> x = plus(cell.center().p, cell.corner(i));
-    if (cell.corner2(i) == farthest2 && point < x) continue;
+    // Of equals, the one that asks for the least: simplices with one circumcentre.
+    if (cell.corner2(i) == farthest2 && std::tie(point, length2) < std::tie(x, shortest2)) continue;
     if (!Base::is_centre(cell, i)) continue;
     farthest2 = cell.corner2(i);
     length2 = shortest2;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "by_threads.hpp"
 #include "facade/box_mesher.hpp"
 #include "facade/graph_runs.hpp"
 #include "facade/tiled_state.hpp"
@@ -40,6 +41,10 @@ using mesher::PslgKind;
 using mesher::RunControl;
 using mesher::SizeLimits;
 using mesher::SplitMix64;
+using support::is_same;
+using support::is_tiled;
+using support::noticed;
+using support::said;
 
 constexpr double kSide = 16;  // of all domains here
 
@@ -50,27 +55,6 @@ Options<D> options_for(int threads) {
   options.domain.lo.fill(0);
   options.threads = threads;
   return options;
-}
-
-template <int D>
-bool is_same(const Change<D>& a, const Change<D>& b) {
-  return a.vertices_added == b.vertices_added && a.kinds_added == b.kinds_added &&
-         a.vertices_removed == b.vertices_removed && a.kinds_changed == b.kinds_changed &&
-         a.simplices_added == b.simplices_added && a.simplices_removed == b.simplices_removed &&
-         a.edges_added == b.edges_added && a.edges_removed == b.edges_removed &&
-         a.angles == b.angles;
-}
-
-// stats() are of all tiles, engine() is of the first one.
-template <int D>
-bool is_tiled(const BoxMesher<D>& m) {
-  return m.stats().calls != m.engine().live_calls();
-}
-
-std::string said(const mesher::Error& e) {
-  std::string text = std::string(mesher::code_name(e.code())) + ": " + e.what();
-  for (const auto& f : e.features()) text += "; " + mesher::text_of(f);
-  return text;
 }
 
 template <class Act>
@@ -595,7 +579,6 @@ TEST_CASE("soak: with limits, the same for every allocation", "[.soak][soak]") {
 namespace {
 
 using LimitedTile = mesher::detail::TileMesher<2>;
-using LimitedMessage = mesher::detail::Message<2>;
 
 // Two tiles that exchange all messages but one. Returns what the certificate says.
 std::string fault_without(std::size_t lost, std::size_t& messages) {
@@ -609,28 +592,6 @@ std::string fault_without(std::size_t lost, std::size_t& messages) {
   for (const auto& p : points) features.insert_only(pool.create(p));
   const mesher::detail::WholeInput<2> whole{nullptr, &features};
   LimitedTile a(options, box, all, 0, whole), b(options, box, all, 1, whole);
-  LimitedTile* const tiles[] = {&a, &b};
-  messages = 0;
-  const auto lose = [&](std::vector<LimitedMessage>& some) {
-    for (std::size_t i = 0; i < some.size();) {
-      messages++ == lost ? static_cast<void>(some.erase(some.begin() + static_cast<long>(i)))
-                         : static_cast<void>(++i);
-    }
-  };
-  const auto run_all = [&](auto&& run) {
-    std::vector<LimitedMessage> out[2];
-    for (int t = 0; t < 2; ++t) run(*tiles[t]), out[t] = tiles[t]->collect(nullptr);
-    while (!out[0].empty() || !out[1].empty()) {
-      lose(out[0]), lose(out[1]);
-      b.receive(0, out[0]), a.receive(1, out[1]);
-      for (int t = 0; t < 2; ++t) {
-        out[t].clear();
-        if (!tiles[t]->is_dirty()) continue;
-        tiles[t]->propagate();
-        out[t] = tiles[t]->collect(nullptr);
-      }
-    }
-  };
   std::vector<LimitedTile::Edit> edits[2];
   const mesher::detail::Limits<2> limits(options, box);
   pool.for_each([&](const mesher::detail::Vertex<2>& v) {
@@ -638,13 +599,7 @@ std::string fault_without(std::size_t lost, std::size_t& messages) {
     edits[all.owner(v.p)].push_back({v.p, std::nullopt, located});
   });
   a.edit(edits[0]), b.edit(edits[1]);
-  run_all([](LimitedTile& t) { t.run_quadtree(); });
-  for (int part = 0; part < a.parts(); ++part) {
-    run_all([&](LimitedTile& t) { t.run_part(part); });
-  }
-  run_all([](LimitedTile& t) { t.run_stars(); });
-  const std::string fault = a.fault_with(b);
-  return fault.empty() ? b.fault_with(a) : fault;
+  return support::fault_without<2>(a, b, lost, messages, [](const auto&) {});
 }
 
 }  // namespace
@@ -653,17 +608,6 @@ TEST_CASE("with limits the certificate of two tiles sees each message that is lo
   std::size_t all = 0;
   REQUIRE(fault_without(~std::size_t{0}, all).empty());
   REQUIRE(all > 50);
-  std::size_t seen = 0, tried = 0;
-  for (std::size_t lost = 0; lost < all; lost += 2) {
-    CAPTURE(lost);
-    std::size_t messages = 0;
-    ++tried;
-    try {
-      if (!fault_without(lost, messages).empty()) ++seen;
-    } catch (const std::exception&) {
-      ++seen;  // the end of what never began
-    }
-  }
-  // A message that others take back is not missed.
-  CHECK(seen * 10 > tried * 7);
+  std::size_t messages = 0;
+  CHECK(noticed(all, 2, [&](std::size_t lost) { return fault_without(lost, messages); }) > 0.7);
 }
