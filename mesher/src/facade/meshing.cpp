@@ -11,6 +11,7 @@
 #include "facade/settled.hpp"
 #include "geometry/input_point.hpp"
 #include "graph/require_ids.hpp"
+#include "space/space_budget.hpp"
 
 namespace mesher {
 
@@ -102,6 +103,8 @@ Mesh<D> run_fastest(const Graph<D>& graph, const Options<D>& options, RunReport&
   for (std::size_t i = 0; i + 1 < all.size(); ++i) {
     try {
       return run(all[i], graph, options, report, control, refinement);
+    } catch (const detail::SurelyTooMany&) {
+      throw;
     } catch (const Error& error) {
       if (error.code() != ErrorCode::too_close && error.code() != ErrorCode::too_many) throw;
       if (report.gave_up) continue;

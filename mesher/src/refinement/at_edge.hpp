@@ -1,6 +1,8 @@
 // What is around an edge of a triangulation.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -36,37 +38,73 @@ template <class Kernel, class Encroaches>
   return at;
 }
 
+/// The way to an edge ab in the star of a, over facets that b is beyond: in a Delaunay
+/// triangulation it does not go in circles. Where b is on the plane of a facet, or the way leaves
+/// the hull, it is lost.
+template <class Kernel>
+class WayToEdge {
+ public:
+  enum class State : std::uint8_t { under_way, there, no_edge, lost };
+
+  /// From s on, in the star of a.
+  WayToEdge(const Kernel& kernel, std::uint32_t s, std::uint32_t a, std::uint32_t b)
+      : kernel_(kernel), simplex_(s), a_(a), b_(b) {}
+
+  /// A step. Requires: it is under way. Cost: O(1).
+  State step() {
+    if (kernel_.is_ghost(simplex_)) return State::lost;
+    const auto corners = kernel_.simplices().corners(simplex_);
+    if (corner_of(corners, b_) != corners.size()) return State::there;
+    bool is_inside = true;
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      if (corners[i] == a_) continue;
+      auto with_b = corners;
+      with_b[i] = b_;
+      const auto& [p, q, r, t] = with_b;
+      const int side = predicates::orient3d(kernel_.place(p), kernel_.place(q), kernel_.place(r),
+                                            kernel_.place(t));
+      if (side < 0) {
+        simplex_ = kernel_.simplices().across(simplex_)[i] >> 2;
+        return State::under_way;
+      }
+      is_inside = is_inside && side > 0;
+    }
+    return is_inside ? State::no_edge : State::lost;
+  }
+  /// Requires: it is there.
+  [[nodiscard]] std::uint32_t simplex() const noexcept { return simplex_; }
+
+ private:
+  const Kernel& kernel_;
+  std::uint32_t simplex_, a_, b_;
+};
+
 /// Which simplex has the edge ab, and whether that is known.
 struct OnTheWay {
   bool is_known = false;
   std::uint32_t simplex = kNone;  // none: there is no such edge
 };
 
-/// By a walk in the star of a, from s on, over facets that b is beyond: in a Delaunay triangulation
-/// it does not go in circles. Where b is on the plane of a facet, or the walk leaves the hull,
-/// nothing is known. Cost: O(steps).
+/// The ways in the stars of a and of b, step by step in turn: one of these may have many simplices.
+/// `scratch`: overwritten. Cost: O(steps of the shorter one).
 template <class Kernel>
-[[nodiscard]] OnTheWay walk_to_edge(const Kernel& kernel, std::uint32_t s, std::uint32_t a,
-                                    std::uint32_t b) {
-  constexpr int kMost = 4096;
-  for (int steps = 0; steps < kMost; ++steps) {
-    if (kernel.is_ghost(s)) return {};
-    const auto corners = kernel.simplices().corners(s);
-    if (corner_of(corners, b) != corners.size()) return {true, s};
-    std::uint32_t next = kNone;
-    bool is_inside = true;
-    for (std::uint32_t i = 0; i < 4 && next == kNone; ++i) {
-      if (corners[i] == a) continue;
-      auto with_b = corners;
-      with_b[i] = b;
-      const auto& [p, q, r, t] = with_b;
-      const int side =
-          predicates::orient3d(kernel.place(p), kernel.place(q), kernel.place(r), kernel.place(t));
-      if (side < 0) next = kernel.simplices().across(s)[i] >> 2;
-      is_inside = is_inside && side > 0;
+[[nodiscard]] OnTheWay walk_to_edge(Kernel& kernel, std::uint32_t a, std::uint32_t b,
+                                    std::vector<std::uint32_t>& scratch) {
+  using Way = WayToEdge<Kernel>;
+  constexpr int kMost = 8192;
+  const auto any = [&](std::uint32_t v) {
+    return kernel.find_in_star(v, scratch, [](std::uint32_t) { return true; });
+  };
+  std::array<Way, 2> ways{Way(kernel, any(a), a, b), Way(kernel, any(b), b, a)};
+  std::array<bool, 2> is_lost{};
+  for (int steps = 0; steps < kMost && !(is_lost[0] && is_lost[1]); ++steps) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (is_lost[k]) continue;
+      const auto state = ways[k].step();
+      if (state == Way::State::there) return {true, ways[k].simplex()};
+      if (state == Way::State::no_edge) return {true, kNone};
+      is_lost[k] = state == Way::State::lost;
     }
-    if (next == kNone) return {is_inside, kNone};
-    s = next;
   }
   return {};
 }
@@ -80,8 +118,7 @@ void find_at_edge(Kernel& kernel, std::uint32_t a, std::uint32_t b,
     const auto& corners = kernel.simplices().corners(s);
     return corner_of(corners, v) != corners.size();
   };
-  const std::uint32_t first = kernel.find_in_star(a, found, [](std::uint32_t) { return true; });
-  const OnTheWay on_the_way = walk_to_edge(kernel, first, a, b);
+  const OnTheWay on_the_way = walk_to_edge(kernel, a, b, found);
   if (!on_the_way.is_known) {
     kernel.find_in_star(a, found, [](std::uint32_t) { return false; });
     std::erase_if(found, [&](std::uint32_t s) { return !has(s, b); });

@@ -1,6 +1,7 @@
 // Vertices on features, and what is left alone.
 #include "refinement/conforming_mesh.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -14,6 +15,14 @@ namespace {
 // the wall is not quite flat (space/polygon_shape.hpp).
 constexpr double kNearWall = 0x1p-24;
 
+// A mesh with so many vertices, and so many times as many as there are points, is asked whether
+// gaps will fill it up; then when it is four times as large.
+constexpr std::size_t kMany = std::size_t{1} << 17;
+constexpr std::size_t kManyTimes = 8;
+constexpr std::size_t kLater = 4;
+// Of a mesh in space, a vertex.
+constexpr std::size_t kSimplices = 7;
+
 }  // namespace
 
 template <int D>
@@ -24,6 +33,7 @@ ConformingMesh<D>::ConformingMesh(const MeshBox<D>& box, const Settings& setting
       names_(settings.names),
       conformity_(*settings.store, kernel_),
       only_enclosed_(settings.only_enclosed),
+      judged_with_(std::max(kMany, kManyTimes * points)),
       holes_(settings.holes),
       regions_(settings.regions) {}
 
@@ -86,7 +96,22 @@ std::optional<std::uint32_t> ConformingMesh<D>::dig(const typename Conforms::Wan
 
 template <int D>
 bool ConformingMesh<D>::is_split(std::uint32_t s) {
+  if (D == 3 && kernel_.places() >= judged_with_) judge();
   return !(has_outside() && conformity_.is_outside(s)) && !stays(s);
+}
+
+template <int D>
+void ConformingMesh<D>::judge() {
+  judged_with_ = kLater * kernel_.places();
+  if constexpr (D == 3) {
+    const std::size_t most = this->most_vertices(Base::Kernel::Store::kMost / kSimplices);
+    const bool all = !has_outside();
+    const NarrowGaps gaps =
+        conformity_.narrow_gaps([&](std::uint32_t s) { return !all && conformity_.is_outside(s); });
+    const auto worst = gaps.worst();
+    if (!worst || gaps.vertices(this->rho()) <= static_cast<double>(most)) return;
+    conformity_.fail_between(*worst, most, names_);
+  }
 }
 
 template <int D>

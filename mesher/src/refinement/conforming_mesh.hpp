@@ -44,7 +44,8 @@ class ConformingMesh : public RefinedMesh<D> {
   /// (too_close: there is a vertex, as add_place()).
   [[nodiscard]] std::optional<std::uint32_t> dig(const typename Conforms::Wanted& wanted);
   /// Whether a poor simplex is split: it is in what is wanted, and not poor by a small angle.
-  /// Requires: conformity_.next() has returned nothing, and nothing was inserted since.
+  /// Requires: conformity_.next() has returned nothing, and nothing was inserted since. Throws:
+  /// SurelyTooMany, where narrow gaps of a complex need more vertices than there may be.
   [[nodiscard]] bool is_split(std::uint32_t s);
   /// As of points: nothing is too large that is outside of what is wanted, and regions have limits
   /// of their own. Requires: as is_split().
@@ -74,8 +75,10 @@ class ConformingMesh : public RefinedMesh<D> {
 
   [[nodiscard]] std::optional<double> limit_in_region(std::uint32_t s, double measure);
   void find_regions();
+  void judge();
 
   bool only_enclosed_, has_regions_ = false;
+  std::size_t judged_with_;  // so many vertices it is asked whether there will be too many
   std::vector<Point<D>> holes_;
   std::vector<LimitedRegion<D>> regions_;
   std::vector<double> limits_;       // by the names of regions

@@ -40,6 +40,12 @@ void Conformity::fail_too_many(std::size_t most, const SpaceNames* names) const 
   throw too_many_vertices(on_features, names, store_, most);
 }
 
+void Conformity::fail_between(const NarrowGaps::Gap& gap, std::size_t most,
+                              const SpaceNames* names) const {
+  const PolygonPool& all = store_.polygons();
+  throw too_many_between(all[gap.one], all[gap.other], gap.width, gap.at, names, store_, most);
+}
+
 // --- What vertices are -----------------------------------------------------------------------
 
 /// `keys_of(polygon)`: handles.

@@ -27,12 +27,14 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "delaunay/facets.hpp"
 #include "mesher/error.hpp"
 #include "refinement/conformity_balls.hpp"
 #include "refinement/line_conformity.hpp"
+#include "refinement/narrow_gaps.hpp"
 #include "refinement/tiles.hpp"
 #include "space/feature_store.hpp"
 #include "space/placed.hpp"
@@ -68,6 +70,14 @@ class Conformity : public LineConformity<3, Conformity> {
 
   /// Throws: Error (too_many: beyond `most`, with the ids of the features with most vertices).
   [[noreturn]] void fail_too_many(std::size_t most, const SpaceNames* names) const;
+  /// Throws: SurelyTooMany.
+  [[noreturn]] void fail_between(const NarrowGaps::Gap& gap, std::size_t most,
+                                 const SpaceNames* names) const;
+
+  /// The gaps beside tiles, on the sides that are not `outside(simplex)`; of many tiles the
+  /// largest. Cost: O(n) for n simplices, and up to some 10^5 searches.
+  template <class Outside>
+  [[nodiscard]] NarrowGaps narrow_gaps(Outside&& outside) const;
 
   /// Throws: Error (too_close), unless the tiles of each polygon are all of it. Requires: next()
   /// has returned nothing.
@@ -247,6 +257,43 @@ void Conformity::visit_tiles_of(std::uint32_t s, Visit&& visit) const {
       t = next;
     }
   }
+}
+
+template <class Outside>
+NarrowGaps Conformity::narrow_gaps(Outside&& outside) const {
+  struct Part {
+    double area;
+    std::uint32_t tile, beside;
+  };
+  std::vector<Part> parts;
+  const auto& simplices = kernel_.simplices();
+  for (std::uint32_t s = 0; s < simplices.places(); ++s) {
+    if (!simplices.alive(s)) continue;
+    const auto& corners = simplices.corners(s);
+    if (std::find(corners.begin(), corners.end(), kInfinite) != corners.end()) continue;
+    visit_tiles_of(s, [&](std::uint32_t t, std::uint32_t) {
+      if (outside(s)) return;
+      const Face& face = tiles_[t].face;
+      const auto is_across = [&](std::uint32_t v) {
+        return std::find(face.begin(), face.end(), v) == face.end();
+      };
+      parts.push_back({area_of(face), t, *std::find_if(corners.begin(), corners.end(), is_across)});
+    });
+  }
+  constexpr std::size_t kMostParts = 1 << 14;
+  const std::size_t count = std::min(parts.size(), kMostParts);
+  std::partial_sort(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(count), parts.end(),
+                    [](const Part& p, const Part& q) {
+                      if (p.area != q.area) return p.area > q.area;
+                      return std::tie(p.tile, p.beside) < std::tie(q.tile, q.beside);
+                    });
+  NarrowGaps gaps(store_);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Tiles::Tile& tile = tiles_[parts[k].tile];
+    const auto& [a, b, c] = tile.face;
+    gaps.add(polygon_of(tile), {place(a), place(b), place(c)}, place(parts[k].beside));
+  }
+  return gaps;
 }
 
 }  // namespace mesher::detail

@@ -68,6 +68,12 @@ class RefinedMesh {
   [[nodiscard]] std::size_t full_with() const noexcept {
     return kernel_.places() >= settings_.most_vertices ? settings_.most_vertices : 0;
   }
+  /// How many there may be: no more than `otherwise`, which holds if there is no limit.
+  [[nodiscard]] std::size_t most_vertices(std::size_t otherwise) const noexcept {
+    const std::size_t most = settings_.most_vertices;
+    return most == 0 ? otherwise : std::min(most, otherwise);
+  }
+  [[nodiscard]] double rho() const noexcept { return settings_.rho; }
   /// Throws: Error(too_many) beyond settings.most_vertices, what add_place() of the kernel throws.
   std::uint32_t add_place(const Point<D>& p, VertexKind kind);
   /// Of the box with its grids.

@@ -10,6 +10,7 @@
 
 #include "geometry/input_point.hpp"
 #include "space/placed.hpp"
+#include "text/text.hpp"
 
 namespace mesher::detail {
 
@@ -117,6 +118,22 @@ Error too_many_vertices(const PlacesOnFeatures& on_features, const SpaceNames* n
     places.push_back(at);
   }
   return Error(ErrorCode::too_many, text, {}, std::move(features), std::move(places));
+}
+
+SurelyTooMany too_many_between(const Polygon& f, const Polygon& g, double width, const Point<3>& at,
+                               const SpaceNames* names, const FeatureStore& store,
+                               std::size_t most) {
+  std::string text = "more than " + std::to_string(most) + " vertices are needed";
+  std::vector<mesher::Feature> features;
+  if (names != nullptr) {
+    const NamedFeature one = named(Feature(f), *names, store);
+    const NamedFeature other = named(Feature(g), *names, store);
+    text += ": " + one.text + " and " + other.text + " are " + text::to_text(width) +
+            " apart near " + place_text(at) + ", and have much area beside each other";
+    features = {one.feature, other.feature};
+  }
+  return SurelyTooMany(
+      Error(ErrorCode::too_many, text, {}, std::move(features), {position_of(at)}));
 }
 
 }  // namespace mesher::detail

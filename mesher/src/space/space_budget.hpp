@@ -21,4 +21,15 @@ using PlacesOnFeatures = std::map<SegmentHandle, std::vector<Point<3>>>;
 [[nodiscard]] Error too_many_vertices(const PlacesOnFeatures& on_features, const SpaceNames* names,
                                       const FeatureStore& store, std::size_t most);
 
+/// An error too_many that any algorithm would end with.
+class SurelyTooMany : public Error {
+ public:
+  explicit SurelyTooMany(const Error& error) : Error(error) {}
+};
+
+/// Where two polygons lie so close to each other that the mesh needs more than `most`.
+[[nodiscard]] SurelyTooMany too_many_between(const Polygon& f, const Polygon& g, double width,
+                                             const Point<3>& at, const SpaceNames* names,
+                                             const FeatureStore& store, std::size_t most);
+
 }  // namespace mesher::detail

@@ -100,10 +100,9 @@ NamedFeature named(const Feature& f, const SpaceNames& names, const FeatureStore
   if (const auto id = names.segment(f.handle()))
     return {text_of(mesher::Feature(*id)), mesher::Feature(*id)};
   std::optional<PolygonId> least;
-  store.polygons().for_each([&](const Polygon& g) {
-    if (!g.alive || !g.has_edge(f.handle())) return;
-    if (const PolygonId id = names.polygon(g.self); !least || id < *least) least = id;
-  });
+  for (const PolygonHandle g : store.polygons_at(store.edges()[f.handle()])) {
+    if (const PolygonId id = names.polygon(g); !least || id < *least) least = id;
+  }
   const mesher::Feature polygon = mesher::Feature(least.value_or(PolygonId{}));
   return {"an edge of " + text_of(polygon), polygon};
 }

@@ -47,10 +47,10 @@ auto said(Rule rule, const CellOf<D>& cell, const typename InsertionRule<D>::New
     if (rule != Rule::radius_edge) return 0u;  // it names no edge
     return i == EdgeFilter<D>::kCentre ? cell.center().self : cell.handle(i);
   };
-  const auto lattice = x.on_lattice ? std::optional(std::tuple(
-                                          x.on_lattice->p, x.on_lattice->clear2,
-                                          x.on_lattice->reach2))
-                                    : std::nullopt;
+  const auto lattice =
+      x.on_lattice
+          ? std::optional(std::tuple(x.on_lattice->p, x.on_lattice->clear2, x.on_lattice->reach2))
+          : std::nullopt;
   return std::tuple(x.p, x.nearest2, x.farther, name(x.from), name(x.to), x.large, x.corner,
                     lattice);
 }

@@ -1,14 +1,17 @@
 // Meshes of complexes in space that may have so many vertices and no more.
 #include <catch2/catch.hpp>
+#include <map>
 #include <regex>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "facade/box_mesher.hpp"
 #include "facade/graph_runs.hpp"
 #include "feature_ids.hpp"
 #include "graph/plc_builder.hpp"
 #include "mesher/meshing.hpp"
+#include "refinement/narrow_gaps.hpp"
 
 namespace {
 
@@ -98,4 +101,75 @@ TEST_CASE("where no feature has vertices of its own none is named") {
   const auto error = refusal_of([&] { (void)mesh_statically(plc, options_for(plc, 5)); });
   CHECK(error.message() == "more than 5 vertices are needed");
   CHECK(error.features().empty());
+}
+
+namespace {
+
+using Quadrilaterals = std::vector<std::vector<Point<3>>>;
+
+// The sides of a box; the last one is the upper one.
+void add_box(const Point<3>& lo, const Point<3>& hi, Quadrilaterals& to) {
+  const int sides[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1},
+                           {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
+  for (const auto& side : sides) {
+    auto& places = to.emplace_back();
+    for (const int i : side) {
+      places.push_back({(i & 4 ? hi : lo)[0], (i & 2 ? hi : lo)[1], (i & 1 ? hi : lo)[2]});
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a plate that is far too thin for its size is refused early, with both sides' names") {
+  Quadrilaterals sides;
+  add_box({0, 0, 0}, {1, 1, 1e-4}, sides);
+  mesher::detail::PlcBuilder b;
+  for (const auto& side : sides) b.polygon({side});
+  const Graph<3> plate = b.finish();
+  auto options = options_for(plate, 10'000'000);  // of 4 10^7
+  options.extent = mesher::Extent::enclosed;
+  const auto error = refusal_of([&] { (void)mesher::box_mesh(plate, options); });
+  CHECK(error.code() == ErrorCode::too_many);
+  CHECK(error.message().find("10000000 vertices are needed: polygon ") != std::string::npos);
+  CHECK(error.message().find(" are 1e-04 apart near (") != std::string::npos);
+  const std::vector<PolygonId> ids = support::ids_of(error);
+  CHECK(std::set(ids.begin(), ids.end()) == std::set{plate.polygons[4].id, plate.polygons[5].id});
+}
+
+TEST_CASE("narrow gaps are told by their area and width, on the side that is asked about") {
+  constexpr double kWidth = 1e-3, kTop = 0.5;
+  Quadrilaterals sides;
+  add_box({0, 0, 0}, {1, 1, kTop}, sides);
+  add_box({0, 0, kTop + kWidth}, {1, 1, 1}, sides);
+  const mesher::detail::MeshBox<3> box{.lo = {-4, -4, -4}, .side = 8};
+  mesher::detail::VertexPool<3> points;
+  mesher::detail::FeatureStore store(box, points);
+  std::vector<mesher::detail::PolygonHandle> polygons;
+  std::map<Point<3>, mesher::detail::VertexHandle> handles;
+  for (const auto& side : sides) {
+    mesher::detail::PolygonParts parts;
+    auto& loop = parts.loops.emplace_back();
+    for (const Point<3>& p : side) {
+      auto& handle = handles[p];
+      if (handle == 0) handle = points.create(p).self;
+      loop.push_back(handle);
+    }
+    mesher::detail::Polygon& f = store.record(parts);
+    store.put(f);
+    polygons.push_back(f.self);
+  }
+  const auto squares = [&](const Point<3>& beside) {
+    const mesher::detail::Polygon& top = store.polygons()[polygons[5]];
+    mesher::detail::NarrowGaps gaps(store);
+    gaps.add(top, {Point<3>{0, 0, kTop}, {1, 0, kTop}, {1, 1, kTop}}, beside);
+    gaps.add(top, {Point<3>{0, 0, kTop}, {1, 1, kTop}, {0, 1, kTop}}, beside);
+    if (const auto worst = gaps.worst()) {
+      CHECK(worst->one == polygons[5]);
+      if (worst->width < 2 * kWidth) CHECK(worst->other == polygons[10]);
+    }
+    return 2 * gaps.vertices(1);
+  };
+  CHECK(squares({0.5, 0.5, 1}) == Approx(1 / (kWidth * kWidth)));
+  CHECK(squares({0.5, 0.5, 0.25}) < 10);
 }
