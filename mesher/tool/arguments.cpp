@@ -336,8 +336,8 @@ void add_threads_option(CLI::App& command, MeshArguments& args) {
   command
       .add_option(
           "--threads", args.threads,
-          "For points, and lines in the plane: mesh, and follow the edits, on N threads; the mesh\n"
-          "is that of one. Once polygons come, or lines in space, one thread does all (default: 1)")
+          "Mesh, and follow the edits, on N threads; the mesh is that of one. Lines and polygons in\n"
+          "space with limits of size, and --min-dihedral, take one thread (default: 1)")
       ->type_name("N");
 }
 

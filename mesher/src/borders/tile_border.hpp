@@ -1,7 +1,8 @@
 // What happens across the border of a tile, as a traceable data type:
 //
-//   hand_over(s, v, b)   the running call gives birth to v beyond the territory;     (effect)
-//                        who owns the place completes it in bucket b
+//   hand_over(s, v, ...) the running call gives birth to v beyond the territory;     (effect)
+//                        who owns the place completes it, or looks for its nearest
+//                        neighbour
 //   answer(s, id, found) the running call has looked, for another tile, who is here  (effect)
 //   request_cut(s, ...)  the running call needs a leaf cut: all tiles cut it         (effect)
 //   fault(s, error)      the running call cannot do what it should                   (effect)
@@ -30,6 +31,19 @@
 #include "sac/sac.hpp"
 
 namespace mesher::detail {
+
+/// Thrown where a new vertex would be nearer to others than nearness() allows.
+struct TooNear {};
+
+/// What is to become of a vertex that a call of another tile has made, as in a Birth.
+template <int D>
+struct Newborn {
+  Point<D> p{};
+  int bucket = -1;
+  Role role{};  // as this tile calls the feature
+  bool asks_nearest = false;
+  friend auto operator<=>(const Newborn&, const Newborn&) = default;
+};
 
 template <int D>
 class TileBorder final : public sac::Structure, public LookListener<D> {
@@ -91,9 +105,7 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
 
   struct Script {
     using Questions = std::map<std::uint32_t, double>;  // what is looked at for others: up to where
-    using Births = std::map<std::pair<Point<D>, int>, int>;  // of which vertices, to be completed
-                                                             // in which bucket (or not): by how
-                                                             // many messages
+    using Births = std::map<Newborn<D>, int>;  // by how many messages
     Questions questions;
     Births births;
     sac::Ref<sac::Call> reader;
@@ -111,14 +123,12 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
         turn, [=](Script& script, Kept& kept) { kept.question = script.questions.extract(id); },
         [](Script& script, Kept& kept) { script.questions.insert(std::move(kept.question)); });
   }
-  bool begin_birth(const Turn<D>& turn, const Point<D>& p, int bucket) {
-    const std::pair key(p, bucket);
+  bool begin_birth(const Turn<D>& turn, const Newborn<D>& key) {
     return edit_script(
         turn, [=](Script& script, Kept&) { ++script.births[key]; },
         [=](Script& script, Kept& kept) { take_birth(script, key, kept); });
   }
-  bool end_birth(const Turn<D>& turn, const Point<D>& p, int bucket) {
-    const std::pair key(p, bucket);
+  bool end_birth(const Turn<D>& turn, const Newborn<D>& key) {
     return edit_script(
         turn, [=](Script& script, Kept& kept) { take_birth(script, key, kept); },
         [=](Script& script, Kept& kept) {
@@ -153,16 +163,23 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     edited_.clear();
   }
 
-  void hand_over(sac::Scope& s, VertexRef<D> v, int bucket) {
-    const auto same = [&](const HandOver& e) { return e.vertex == v->self && e.bucket == bucket; };
+  /// `role`: as the running call says; `asks_nearest`: see Birth.
+  void hand_over(sac::Scope& s, VertexRef<D> v, int bucket, const Role& role = {},
+                 bool asks_nearest = false) {
+    const auto same = [&](const HandOver& e) {
+      return e.vertex == v->self && e.bucket == bucket && e.role == role &&
+             e.asks_nearest == asks_nearest;
+    };
     if (s.recall<HandOver>(id_, kHandOver, same) != nullptr) return;
-    const Birth<D> birth{v->p, bucket, turn_of(s.self())};
+    const Birth<D> birth{v->p, bucket, turn_of(s.self()), role, asks_nearest};
     const auto live = born_.insert(birth);
     try {
       make_room(births_, born_.size());
       auto& edge = s.effect<HandOver>(id_, kHandOver);
       edge.vertex = v->self;
       edge.bucket = bucket;
+      edge.role = role;
+      edge.asks_nearest = asks_nearest;
     } catch (...) {
       born_.erase(live);
       throw;
@@ -206,22 +223,28 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
                          LiveFault{turn_of(s.self()), engine_.handle_of(s.self()), is_near});
   }
   [[nodiscard]] bool has_faults() const noexcept { return !live_faults_.empty(); }
-  /// How near vertices may come to others: to begin with 1.
-  [[nodiscard]] double nearness() const noexcept { return nearness_; }
-  void reset_nearness() noexcept { nearness_ = 1; }
-  /// An edit: those that were too near are tried again, and may be nearer. Returns whether there
-  /// are any, and have not been tried often enough.
+  /// How near to others the running call may make a vertex: to begin with 1.
+  [[nodiscard]] double nearness(sac::Scope& s) const {
+    if (nearness_.empty()) return 1;
+    const auto it = nearness_.find(turn_of(s.self()));
+    return it == nearness_.end() ? 1 : it->second;
+  }
+  void reset_nearness() noexcept { nearness_.clear(); }
+  /// An edit: calls that would have come too near to others are tried again, and may come nearer; no
+  /// others may, which may meet what will not be there. Returns whether there are any, and have not
+  /// been tried often enough.
   bool try_nearer() {
-    constexpr double kStep = 0x1p-8, kLeast = 0x1p-48;
-    if (nearness_ <= kLeast) return false;
+    constexpr double kStep = 0x1p-4, kLeast = 0x1p-48;
     bool any = false;
     for (const auto& [error, fault] : live_faults_) {
       if (!fault.is_near) continue;
+      double& nearness = nearness_.try_emplace(fault.turn, 1).first->second;
+      if (nearness <= kLeast) continue;
+      nearness *= kStep;
       if (!any) engine_.begin_edit();
       any = true;
       engine_.invalidate(engine_.call(fault.call));
     }
-    if (any) nearness_ *= kStep;
     return any;
   }
 
@@ -259,7 +282,7 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
   void for_each_look(Visit&& visit) const {
     for (const auto& [handle, look] : crossing_) visit(look.first, look.second);
   }
-  /// Calls visit(birth) for all births beyond it.
+  /// Calls visit(birth) for all births beyond it, with roles as this tile calls them.
   template <class Visit>
   void for_each_birth(Visit&& visit) const {
     for (const Birth<D>& birth : born_) visit(birth);
@@ -298,7 +321,7 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
   void retract(sac::Call& call, sac::Edge& edge) noexcept override {
     if (edge.kind == kHandOver) {
       const auto& e = static_cast<HandOver&>(edge);
-      const Birth<D> birth{(*pool_)[e.vertex].p, e.bucket, turn_of(call)};
+      const Birth<D> birth{(*pool_)[e.vertex].p, e.bucket, turn_of(call), e.role, e.asks_nearest};
       births_.push_back({birth, -1});
       born_.erase(born_.find(birth));
     } else if (edge.kind == kAnswer) {
@@ -328,6 +351,8 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
   struct HandOver : sac::Edge {
     VertexHandle vertex;
     std::int32_t bucket;
+    Role role;
+    bool asks_nearest;
   };
   struct Answer : sac::Edge {
     std::uint32_t id;
@@ -357,7 +382,7 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     typename Script::Questions::node_type question;
     typename Script::Births::node_type birth;
   };
-  static void take_birth(Script& script, const std::pair<Point<D>, int>& key, Kept& kept) noexcept {
+  static void take_birth(Script& script, const Newborn<D>& key, Kept& kept) noexcept {
     const auto it = script.births.find(key);
     if (--it->second == 0) kept.birth = script.births.extract(it);
   }
@@ -430,7 +455,7 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     bool is_near;
   };
   std::unordered_map<std::uint32_t, LiveFault> live_faults_;
-  double nearness_ = 1;
+  std::map<Turn<D>, double> nearness_;  // of calls that are tried again
 };
 
 }  // namespace mesher::detail

@@ -48,14 +48,16 @@ struct Look {
   friend auto operator<=>(const Look&, const Look&) = default;
 };
 
-/// A vertex that is born at this turn. `bucket`: when it is to be completed, by who owns its place;
-/// negative: it is only seen. `role`: on a segment as all tiles call it.
+/// A vertex that is born at this turn. `bucket`: when it is to be completed, or if `asks_nearest`
+/// its nearest neighbour is asked for, by who owns its place; negative: it is only seen. `role`: on
+/// a feature as all tiles call it.
 template <int D>
 struct Birth {
   Point<D> p{};
   int bucket = -1;
   Turn<D> turn;
   Role role{};
+  bool asks_nearest = false;
   friend auto operator<=>(const Birth&, const Birth&) = default;
 };
 

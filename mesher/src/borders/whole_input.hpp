@@ -6,12 +6,17 @@
 
 namespace mesher::detail {
 
+class FeatureStore;
+
 template <int D>
 struct WholeInput {
   /// In the plane: who has the points at which segments end; null: there are no segments.
   const VertexPool<D>* ends = nullptr;
   /// Points of features, which keep the lattice away; null: there are no limits of size.
   const FeatureTree<D>* features = nullptr;
+  /// In space: the edges and polygons, and the points that they are between; null: there are none.
+  /// Where there are, tiles make the vertices alone: who has this puts the mesh together.
+  const FeatureStore* complex = nullptr;
 };
 
 }  // namespace mesher::detail

@@ -50,6 +50,10 @@ class AnyState {
   /// Ascending by id.
   [[nodiscard]] virtual std::vector<GraphPoint<D>> points() const = 0;
 
+  /// Of a change by a first run that goes from another mesh to this one: says in it what is to be
+  /// said of simplices that are new. Beyond space, and in the plane, nothing.
+  virtual void judge_new(Change<D>&) const {}
+
   virtual void check_invariants() const = 0;
 };
 

@@ -8,6 +8,9 @@
 #include "facade/reentry_guard.hpp"
 #include "facade/state.hpp"
 #include "facade/tiled_plane_state.hpp"
+#ifndef MESHER_PLANE_ONLY
+#include "facade/tiled_space_state.hpp"
+#endif
 #include "facade/tiled_state.hpp"
 #include "facade/whole_change.hpp"
 #include "geometry/input_point.hpp"
@@ -32,7 +35,23 @@ std::unique_ptr<AnyState<D>> state_for(const Options<D>& options, const Edits<D>
   if constexpr (D == 2) {
     if (may_have_lines_tiled(options, edits)) return std::make_unique<TiledPlaneState>(options);
   }
+#ifndef MESHER_PLANE_ONLY
+  if constexpr (D == 3) {
+    if (may_have_complexes_tiled(options, edits)) return std::make_unique<TiledSpaceState>(options);
+  }
+#endif
   return std::make_unique<State<D>>(options);
+}
+
+/// The features that there will be, as new ones.
+template <class Key, class Value>
+Staged<Key, Value> all_of(const Staged<Key, Value>& staged) {
+  Staged<Key, Value> all;
+  for (const auto& [id, value] : staged.committed()) all.set(id, value);
+  staged.for_each_edit([&](const Key& id, const Value*, const Value* is) {
+    all.set(id, is != nullptr ? std::optional(*is) : std::nullopt);
+  });
+  return all;
 }
 
 }  // namespace
@@ -64,7 +83,6 @@ struct BoxMesher<D>::Impl {
   void discard_edits() noexcept;
   using LastWord = typename State::Accept;
   [[nodiscard]] detail::PointEdits<D> all_points() const;
-  [[nodiscard]] detail::StagedLines all_lines() const;
   Change<D> run_anew(const RunControl& control, const LastWord& accept, int threads);
   Change<D> run(const RunControl& control, const LastWord& accept);
   Change<D> run_or_alone(const RunControl& control, const LastWord& accept);
@@ -208,31 +226,23 @@ detail::PointEdits<D> BoxMesher<D>::Impl::all_points() const {
   return all.sorted();
 }
 
-// The lines that there will be, likewise.
-template <int D>
-detail::StagedLines BoxMesher<D>::Impl::all_lines() const {
-  detail::StagedLines all;
-  for (const auto& [id, points] : lines.committed()) all.set(id, points);
-  lines.for_each_edit([&](LineId id, const detail::LinePoints*, const detail::LinePoints* is) {
-    all.set(id, is != nullptr ? std::optional(*is) : std::nullopt);
-  });
-  return all;
-}
-
 // A state by another means, from the start: of all, with as many threads.
 template <int D>
 Change<D> BoxMesher<D>::Impl::run_anew(const RunControl& control, const LastWord& accept,
                                        int threads) {
   Options<D> now = pending_options();
   now.threads = threads;
-  const detail::StagedLines every_line = all_lines();
-  detail::Edits<D> edits{all_points(), every_line, polygons};
+  const auto every_line = detail::all_of(lines);
+  const auto every_polygon = detail::all_of(polygons);
+  detail::Edits<D> edits{all_points(), every_line, every_polygon};
   std::unique_ptr<detail::AnyState<D>> fresh = detail::state_for(now, edits);
   const Mesh<D> before = state->ran() ? state->mesh() : Mesh<D>();
   Change<D> change = fresh->first_run(std::move(edits), control, [&](Change<D>& c) {
     detail::count_from(before, c);
     if constexpr (D == 2) {
       if (!before.vertices.empty()) c.angles = angle_news(fresh->mesh(), now, c.simplices_added);
+    } else if (!before.vertices.empty()) {
+      fresh->judge_new(c);
     }
     if (accept) accept(c);
   });
@@ -266,6 +276,12 @@ template <int D>
 Change<D> BoxMesher<D>::Impl::run_or_alone(const RunControl& control, const LastWord& accept) {
   try {
     return run(control, accept);
+  } catch (const detail::NotInTilesYet&) {
+    try {
+      return run_anew(control, accept, options.threads);
+    } catch (const detail::NotInTiles&) {
+      return run_anew(control, accept, 1);
+    }
   } catch (const detail::NotInTiles&) {
     return run_anew(control, accept, 1);
   }

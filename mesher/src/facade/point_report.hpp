@@ -82,6 +82,19 @@ void PointState<D>::report_simplices(const Log& log, Change<D>& change) const {
 }
 
 template <int D>
+void PointState<D>::judge_new(Change<D>& change) const {
+  if constexpr (D == 3) {
+    std::vector<Simplex> come;
+    const auto& added = change.simplices_added;  // ascending
+    vertices().for_each_simplex([&](const Simplex& s) {
+      if (std::binary_search(added.begin(), added.end(), corners(s))) come.push_back(s);
+    });
+    change.guard = {};
+    find_angles(come, change);
+  }
+}
+
+template <int D>
 void PointState<D>::check_invariants() const {
   engine_->check_invariants();
   vertices().check_invariants();

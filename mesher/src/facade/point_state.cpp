@@ -154,6 +154,14 @@ Change<D> PointState<D>::first_run(Edits<D> edits, const RunControl& control,
   commit();
   require_room(pool().size() - vertices().trials());
   require_features();
+  Change<D> change = first_change();
+  change.calls = calls;
+  if (accept) accept(change);
+  return change;
+}
+
+template <int D>
+Change<D> PointState<D>::first_change() {
   ran_ = true;
   const std::vector<Simplex> come = simplices();
   const OnFeatures parts = on_features(come);
@@ -162,8 +170,6 @@ Change<D> PointState<D>::first_run(Edits<D> edits, const RunControl& control,
   stats_ = timed_stats(*world_, mesh);
   Change<D> change = whole_change(mesh);
   find_angles(come, change);
-  change.calls = calls;
-  if (accept) accept(change);
   return change;
 }
 
@@ -257,16 +263,10 @@ Change<D> PointState<D>::propagate(const Edits<D>& edits, const RunControl& cont
     return detail::report(control, {Phase::update, p.executed, p.executed + p.queued});
   };
   Change<D> change;
-  const std::function<void()> report = [&] {  // what needs memory, while all can be undone
+  const std::function<void()> last = [&] {  // what needs memory, while all can be undone
     make_room();
     prepare_names();
-    const Log log = vertices().log();
-    require_features(log);
-    report_vertices(log, change);
-    report_features(log, change);
-    report_simplices(log, change);
-    find_angles(log.simplices_come, change);
-    require_room(stats_.vertices + change.vertices_added.size() - change.vertices_removed.size());
+    report(change);
     if (accept) accept(change);
   };
   ask_ = asking(control, Phase::update, &fail_stopped);
@@ -276,19 +276,35 @@ Change<D> PointState<D>::propagate(const Edits<D>& edits, const RunControl& cont
       std::max(world_->most_vertices, pool().size() - vertices().trials() + world_->most_vertices);
   try {
     const Watch watch(*engine_, control, meter);
-    change.calls = call_counts(engine_->propagate(report));
+    change.calls = call_counts(engine_->propagate(last));
   } catch (...) {
     commit();
     forget();
     throw;
   }
-  rename(edits.points);
+  end_update(edits.points, change);
+  return change;
+}
+
+template <int D>
+void PointState<D>::report(Change<D>& change) {
+  const Log log = vertices().log();
+  require_features(log);
+  report_vertices(log, change);
+  report_features(log, change);
+  report_simplices(log, change);
+  find_angles(log.simplices_come, change);
+  require_room(stats_.vertices + change.vertices_added.size() - change.vertices_removed.size());
+}
+
+template <int D>
+void PointState<D>::end_update(const PointEdits<D>& edits, const Change<D>& change) noexcept {
+  rename(edits);
   commit_names();
   forget();
   commit();
   stats_.vertices += change.vertices_added.size() - change.vertices_removed.size();
   stats_.simplices += change.simplices_added.size() - change.simplices_removed.size();
-  return change;
 }
 
 template class PointState<2>;

@@ -51,6 +51,7 @@ class PointState : public AnyState<D> {
   [[nodiscard]] std::optional<Named> obstacle(const Point<D>& p) const override;
   [[nodiscard]] std::vector<GraphPoint<D>> points() const override;
 
+  void judge_new(Change<D>& change) const override;
   void check_invariants() const override;
 
  protected:
@@ -114,6 +115,12 @@ class PointState : public AnyState<D> {
   MeshStats stats_;
 
   // --- The parts of runs
+  /// What a first run has made, when its vertices are triangulated.
+  Change<D> first_change();
+  /// Adds what an update has changed, while that can be undone. Throws: Error if it may not be.
+  void report(Change<D>& change);
+  /// Ends an update that has made these edits, and has changed this in the mesh.
+  void end_update(const PointEdits<D>& edits, const Change<D>& change) noexcept;
   void add_first(const typename Pending<D>::Edit& edit);
   /// Makes edits in the engine. Throws: Error, and then has made none.
   void make(const Edits<D>& edits);

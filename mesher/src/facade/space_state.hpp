@@ -11,12 +11,18 @@
 
 namespace mesher::detail {
 
-class SpaceState final : public LineState<3> {
+class SpaceState : public LineState<3> {
  public:
   /// Throws: Error(bad_option).
   explicit SpaceState(const Options<3>& options) : LineState(options), rho_(options.rho) {
     world_->feature_names = this;
   }
+
+ protected:
+  FeatureStore& store() const noexcept { return world_->plc.store(); }
+  void prepare_names() override;
+
+  PolygonNames polygon_names_;
 
  private:
   void take_edited(const Edits<3>& edits) override;
@@ -24,7 +30,6 @@ class SpaceState final : public LineState<3> {
   void require_unused(PointId id, VertexHandle v) const override;
   void add_noted() override;
   void require_fit() override;
-  void prepare_names() override;
   void commit_names() noexcept override;
   void discard_news() noexcept override;
 
@@ -55,10 +60,7 @@ class SpaceState final : public LineState<3> {
 
   [[nodiscard]] IsolatedEdges::Beside name_of(const Edge& e,
                                               const std::vector<const Polygon*>& near) const;
-  FeatureStore& store() const noexcept { return world_->plc.store(); }
-
   double rho_;
-  PolygonNames polygon_names_;
   KnownParts parts_;  // of the mesh of the last update
   // What an update brings, until it is done.
   std::vector<const mesher::Polygon*> noted_polygons_;

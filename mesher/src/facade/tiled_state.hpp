@@ -19,6 +19,8 @@ namespace mesher::detail {
 
 /// What is thrown where tiles have failed, or cannot tell: one thread does it, or says why not.
 struct NotInTiles {};
+/// The same where tiles are sooner done with a first run.
+struct NotInTilesYet {};
 /// Calls act(); what tiles say of errors `is_theirs`, and not what one thread would.
 template <class Act>
 void in_tiles(Act&& act, bool is_theirs = true) {

@@ -40,7 +40,7 @@ void keep_difference(std::vector<T>& come, const std::vector<T>& was, std::vecto
   std::set_difference(was.begin(), was.end(), all.begin(), all.end(), std::back_inserter(gone));
 }
 
-/// Makes of the change from nothing to a mesh that from `before`, which has no faces on features.
+/// Makes of the change from nothing to a mesh that from `before`.
 /// Cost: O(the size of both).
 template <int D>
 void count_from(const Mesh<D>& before, Change<D>& change) {
@@ -71,6 +71,9 @@ void count_from(const Mesh<D>& before, Change<D>& change) {
   std::sort(change.edges_added.begin(), change.edges_added.end());
   std::sort(was.edges_added.begin(), was.edges_added.end());
   keep_difference(change.edges_added, was.edges_added, change.edges_removed);
+  std::sort(change.faces_added.begin(), change.faces_added.end());
+  std::sort(was.faces_added.begin(), was.faces_added.end());
+  keep_difference(change.faces_added, was.faces_added, change.faces_removed);
 }
 
 }  // namespace mesher::detail

@@ -716,7 +716,8 @@ void VertexIndex<sac::Scope, D>::check_vertex(const Vertex<D>& v) const {
   SAC_INVARIANT(v.alive == v.committed && (v.alive || !v.input || waits));
   SAC_INVARIANT(v.alive ? !v.changed && !v.trial
                         : v.changed || v.queries != 0 || v.held != 0 || waits);
-  SAC_INVARIANT(v.alive == (v.boundary || v.presence.there()));
+  const bool is_made = v.boundary || v.presence.there();
+  SAC_INVARIANT(v.alive == is_made || (v.alive && is_given_));
   presences_.check_invariants(v.presence);
   if (v.presence.there()) {
     SAC_INVARIANT(role(v) == role_from(engine_.call_at(v.presence.birth()), v));

@@ -212,6 +212,18 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
     touch(*v);
     return {v};
   }
+  /// Where no call looks at vertices, and it is known otherwise which there are: v, of the pool, is
+  /// one, with a role unless calls that insert it say which; or it is none. Throws: std::bad_alloc,
+  /// and then changes nothing.
+  void set_vertex(Vertex<D>& v, bool is_there, const Role& role) {
+    if (role.on != 0) roles_.reserve(v.self);
+    is_given_ = true;
+    touch(v);
+    v.alive = is_there;
+    if (is_there && !v.presence.there()) set_role(v, role);
+  }
+  /// Those that may have come, gone, or become another kind since the last commit.
+  [[nodiscard]] std::vector<VertexHandle> touched() const { return log_.touched(); }
   /// Records that have only been tried.
   [[nodiscard]] std::size_t trials() const noexcept { return trials_; }
   /// In space: who has seen the last cell has asked for the features that meet its star, and for
@@ -478,6 +490,7 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   std::vector<PlaceBall> balls_;  // scratch
   LookListener<D>* listener_ = nullptr;
   bool looks_across_ = false;  // while look_across() runs
+  bool is_given_ = false;      // some are vertices by set_vertex() alone
 };
 
 }  // namespace mesher::detail

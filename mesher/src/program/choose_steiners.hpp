@@ -87,7 +87,7 @@ std::optional<VertexRef<D>> fill_at(S& s, World<S, D>& w, CellOf<D>& gaps, const
   };
   if (!w.is_part()) return fill();
   double nearest = kNearest * w.buckets().shortest(b);
-  if constexpr (S::kTraced) nearest *= w.border->nearness();
+  if constexpr (S::kTraced) nearest *= w.border->nearness(s);
   const bool is_near = point.nearest2 < nearest * nearest;
   try {
     if (is_near) w.fail_useless(v, v);
@@ -133,6 +133,29 @@ Filled fill_gaps(S& s, World<S, D>& w, CellOf<D>& gaps, Staying<S, D>& stays, co
   return filled;
 }
 
+/// Calls act(). In a tile a call may meet what will not be there in the end: an error counts only if
+/// it is still there then. Returns whether there was none.
+template <class S, int D, class Act>
+bool succeeds(S& s, World<S, D>& w, Act&& act) {
+  if (!w.is_part()) return act(), true;
+  const auto fault = [&](const Error& error, [[maybe_unused]] bool is_near) {
+    if constexpr (S::kTraced) {
+      w.border->fault(s, error, is_near);
+    } else {
+      w.halo->fault(error);
+    }
+    return false;
+  };
+  try {
+    act();
+    return true;
+  } catch (const Error& error) {
+    return fault(error, false);
+  } catch (const TooNear&) {
+    return fault({ErrorCode::too_close, "a new vertex would be too near to others"}, true);
+  }
+}
+
 /// Complete(v, b) where v is another tile's: what that has seen here is looked at again, and what
 /// it has inserted is born.
 template <int D>
@@ -144,10 +167,14 @@ void complete_for_another(sac::Scope& s, World<sac::Scope, D>& w, VertexRef<D> v
     w.border->answer(s, question, found);
   }
   for (const auto& [birth, count] : script.births) {
-    const VertexRef<D> x = w.vertices.claim(birth.first);
-    w.vertices.insert(s, x);
-    if (birth.second < 0) continue;
-    w.post_complete(s, x, birth.second);
+    const VertexRef<D> x = w.vertices.claim(birth.p);
+    birth.role.on != 0 ? w.vertices.insert(s, x, birth.role) : w.vertices.insert(s, x);
+    if (birth.bucket < 0) continue;
+    if (birth.asks_nearest) {
+      w.post_nearest_in(s, x, birth.bucket);
+    } else {
+      w.post_complete(s, x, birth.bucket);
+    }
     w.post_star(s, x);
   }
 }
@@ -170,13 +197,17 @@ void Complete::operator()(S& s, VertexRef<D> v, int b) const {
   }
   Staying<S, D> stays(w, *gaps);
   bool cuts = disencroach(s, w, v, b);
-  conform(s, stays, b);
-  for (bool grows = true; grows;) {
-    const Filled filled = fill_gaps(s, w, *gaps, stays, *v, b);
-    if (filled.fails) return;
-    cuts = cuts || filled.waits;
-    grows = filled.inserts && conform(s, stays, b);
-  }
+  bool fails = false;
+  const bool goes_well = succeeds(s, w, [&] {
+    conform(s, stays, b);
+    for (bool grows = true; grows;) {
+      const Filled filled = fill_gaps(s, w, *gaps, stays, *v, b);
+      fails = fails || filled.fails;
+      cuts = cuts || filled.waits;
+      grows = !fails && filled.inserts && conform(s, stays, b);
+    }
+  });
+  if (fails || !goes_well) return;
   const std::optional<int> later = cuts ? b + 1 : w.rule->next_bucket(*gaps, b, stays.filter());
   s.weigh(stays.looked_at());
   post_slivers(s, w, *gaps, b);

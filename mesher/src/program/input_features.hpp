@@ -122,6 +122,9 @@ class InputFeatures<sac::Scope> final : public PointListener<3>,
 
   void point_came(const Vertex<3>& v) noexcept override;
   void point_went(const Vertex<3>& v) noexcept override;
+  void level_changed(Vertex<3>& v) noexcept override {
+    if (cells_ != nullptr) cells_->touch(v);
+  }
 
   /// Ends an update: frees the records of features that have gone.
   void commit() noexcept { store_.commit(); }

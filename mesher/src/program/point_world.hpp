@@ -96,7 +96,7 @@ struct PointWorld {
   void post_star(S& s, VertexRef<D> v);
   /// `cell`: of v, which has been completed. In a tile: v's star is looked at then if it may have
   /// vertices beyond the territory, which are learnt of so. (Cells shrink: in any other star is no
-  /// vertex that has not been met.)
+  /// vertex that has not been met.) Where the mesh is put together elsewhere nobody needs that.
   void post_border_star(S& s, VertexRef<D> v, const CellOf<D>& cell);
   /// The same of v that is not completed: nobody farther than `reach` will be around it.
   void post_border_star(S& s, VertexRef<D> v, double reach);

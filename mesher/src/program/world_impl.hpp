@@ -140,7 +140,7 @@ void PointWorld<S, D>::post_star(S& s, VertexRef<D> v) {
 template <class S, int D>
 void PointWorld<S, D>::post_border_star(S& s, VertexRef<D> v, const CellOf<D>& cell) {
   if constexpr (S::kTraced && D <= 3) {
-    if (border == nullptr) return;
+    if (border == nullptr || border->whole().complex != nullptr) return;
     if (vertices.is_whole(cell) && border->holds(*v, vertices.concern(cell))) return;
     stars.template post<star>(s, star_key(box.fixed(v->p)), v);
   }
@@ -149,7 +149,8 @@ void PointWorld<S, D>::post_border_star(S& s, VertexRef<D> v, const CellOf<D>& c
 template <class S, int D>
 void PointWorld<S, D>::post_border_star(S& s, VertexRef<D> v, double reach) {
   if constexpr (S::kTraced && D <= 3) {
-    if (border == nullptr || border->holds(around(v->p, reach))) return;
+    if (border == nullptr || border->whole().complex != nullptr) return;
+    if (border->holds(around(v->p, reach))) return;
     stars.template post<star>(s, star_key(box.fixed(v->p)), v);
   }
 }
@@ -330,14 +331,37 @@ void World<S, 3>::post_split_slivers(S& s, VertexRef<3> v, int b) {
   this->steiner.template post<split_slivers>(s, key, v, b);
 }
 
+/// Whether x is so near to the cell's vertex or a neighbour of that.
+[[nodiscard]] inline bool is_within(const VoronoiCell3& cell, const Point<3>& x, double distance) {
+  const auto is_near = [&](const Point<3>& p) {
+    return squared_distance(p, x) < distance * distance;
+  };
+  if (is_near(cell.center().p)) return true;
+  for (int i = 0; i < cell.size(); ++i) {
+    if (cell.used(i) && cell.real(i) && is_near(cell.place(i))) return true;
+  }
+  return false;
+}
+
+// In a tile others may be near that will not be there in the end, as for fill_at().
 template <class S>
 void World<S, 3>::insert_beside(S& s, const Vertex<3>& v, CellOf<3>& cell, const Placed& y, int b) {
+  if constexpr (S::kTraced) {
+    if (this->border != nullptr) [[unlikely]] {
+      const double least = this->border->nearness(s) * kNearest * this->buckets().shortest(b);
+      if (is_within(cell, y.p, least)) throw TooNear();
+    }
+  }
   const VertexRef<3> x = y.role.on != 0 ? vertices.insert(s, y.p, y.role) : vertices.insert(s, y.p);
   if (!cell.cuts(x->p)) fail_useless(v, *x);
   this->require_room(s);
   cell.cut(x->self);
+  if constexpr (S::kTraced) {
+    if (!this->owns(x->p)) [[unlikely]] {
+      return this->border->hand_over(s, x, b + 1, y.role, true);
+    }
+  }
   this->post_nearest_in(s, x, b + 1);
-  this->post_star(s, x);
 }
 
 template <class S>

@@ -14,6 +14,15 @@ namespace {
 
 constexpr std::size_t kAnyRecords = ~std::size_t{0};  // all tiles together have a limit
 
+template <int D>
+auto own_features(World<sac::Scope, D>& world, sac::Engine& engine, const WholeInput<D>& whole) {
+  if constexpr (D == 3) {
+    return SpaceFeatures(world, engine, whole.complex);
+  } else {
+    return std::monostate();
+  }
+}
+
 }  // namespace
 
 LineOrders LineOrders::inverse() const {
@@ -29,7 +38,7 @@ LineOrders LineOrders::inverse() const {
 
 template <int D>
 CommonOrders<D> CommonOrders<D>::inverse() const {
-  CommonOrders all{lines.inverse(), {}, features};
+  CommonOrders all{lines.inverse(), features_in_space.inverse(), {}, features};
   if (limits) all.limits = LimitsChange{limits->is, limits->was, limits->where};
   return all;
 }
@@ -42,6 +51,7 @@ TileMesher<D>::TileMesher(const Options<D>& options, const MeshBox<D>& box,
       engine_(std::make_unique<sac::Engine>()),
       border_(std::make_unique<TileBorder<D>>(*engine_, all, self, box.side, whole)),
       world_(std::make_unique<World<sac::Scope, D>>(options, box, *engine_, border_.get())),
+      own_features_(own_features(*world_, *engine_, whole)),
       asked_(all.size()),
       askers_(all.size()) {
   border_->attach(world_->vertices.pool(), world_->fills.number(), world_->quadtree.number(),
@@ -84,7 +94,8 @@ void TileMesher<D>::edit_common(std::shared_ptr<const CommonOrders<D>> common) {
   for (const Point<D>& p : common->features) {
     if (world_->surroundings.concerned(p)) features_.push_back(p);
   }
-  if (!common->lines.is_empty() || common->limits) common_.push_back(std::move(common));
+  const bool is_for_all = !common->lines.is_empty() || !common->features_in_space.is_empty();
+  if (is_for_all || common->limits) common_.push_back(std::move(common));
 }
 
 // What limits change is as much as is in their boxes.
@@ -146,8 +157,8 @@ template <int D>
 void TileMesher<D>::arrived(std::uint32_t from, const Birth<D>& birth) {
   ++(birth.bucket < 0 ? counts_.seen : counts_.born);
   from_.emplace(birth.p, From{{birth.turn, birth.role}, from});
-  orders_.push_back(
-      {Order::Kind::arrive, true, birth.p, birth.turn, birth.bucket, from, 0, birth.role});
+  orders_.push_back({Order::Kind::arrive, true, birth.p, birth.turn, birth.bucket, from, 0,
+                     birth.role, {}, birth.asks_nearest});
 }
 
 template <int D>
@@ -157,8 +168,8 @@ void TileMesher<D>::departed(std::uint32_t from, const Birth<D>& birth) {
   const auto it = std::find_if(first, last, [&](const auto& f) { return f.second == same; });
   SAC_ENSURES(it != last);
   from_.erase(it);
-  orders_.push_back(
-      {Order::Kind::arrive, false, birth.p, birth.turn, birth.bucket, from, 0, birth.role});
+  orders_.push_back({Order::Kind::arrive, false, birth.p, birth.turn, birth.bucket, from, 0,
+                     birth.role, {}, birth.asks_nearest});
 }
 
 template <int D>
@@ -171,20 +182,34 @@ void TileMesher<D>::note_cut(std::uint32_t from, const CutOfLeaf<D>& cut, bool b
   orders_.push_back({Order::Kind::cut, begins, {}, cut.turn, cut.bucket, from, 0, {}, cut.piece});
 }
 
-// Of a segment, as all tiles call it, and as this one does.
+// Of a feature, as all tiles call it, and as this one does.
 template <int D>
 Role TileMesher<D>::named(Role role) const noexcept {
   if constexpr (D == 2) {
     if (role.on != 0) role.on = world_->segments.name(role.on);
+    return role;
+  } else {
+    return own_features_.named(role);
   }
-  return role;
 }
 template <int D>
 Role TileMesher<D>::own(Role role) const {
   if constexpr (D == 2) {
     if (role.on != 0) role.on = world_->segments.own(role.on);
+    return role;
+  } else {
+    return own_features_.own(role);
   }
-  return role;
+}
+template <int D>
+Birth<D> TileMesher<D>::named(Birth<D> birth) const noexcept {
+  birth.role = named(birth.role);
+  return birth;
+}
+template <int D>
+bool TileMesher<D>::has_features_in_space() const noexcept {
+  if constexpr (D == 3) return own_features_.any();
+  return false;
 }
 template <int D>
 Piece TileMesher<D>::named(Piece piece) const noexcept {
@@ -228,11 +253,13 @@ void TileMesher<D>::carry_out_cut(const Order& order) {
 
 template <int D>
 void TileMesher<D>::locate(const Order& order, VertexRef<D> v) {
-  Vertex<D>* const record = v.v;
-  engine_->begin_edit();
-  engine_->on_rollback([record, was = bool{v->input}] { record->input = was; });
   const Role role = own(order.role);
-  v->input = order.begins && role.on == 0;
+  if (!has_features_in_space()) {  // then this is told of all points
+    Vertex<D>* const record = v.v;
+    engine_->begin_edit();
+    engine_->on_rollback([record, was = bool{v->input}] { record->input = was; });
+    v->input = order.begins && role.on == 0;
+  }
   if (role.on != 0) {
     const auto [distance, from_b] = std::pair(role.label.distance(), role.label.from_b());
     if (order.begins) {
@@ -292,8 +319,8 @@ void TileMesher<D>::carry_out_in_complete(const Order& order, int bucket) {
       return order.begins ? border_->begin_question(turn, order.name, order.radius)
                           : border_->end_question(turn, order.name);
     }
-    return order.begins ? border_->begin_birth(turn, order.p, order.number)
-                        : border_->end_birth(turn, order.p, order.number);
+    const Newborn<D> birth{order.p, order.number, own(order.role), order.asks_nearest};
+    return order.begins ? border_->begin_birth(turn, birth) : border_->end_birth(turn, birth);
   };
   const bool was_there = edit();
   const bool is_there = border_->has_script(order.turn);
@@ -320,6 +347,7 @@ void TileMesher<D>::post_orders() {
         edit_limits(*world_, common->limits->is, common->limits->where, *engine_);
       }
       carry_out_lines(common->lines);
+      if constexpr (D == 3) own_features_.carry_out(common->features_in_space);
     }
     for (const Point<D>& p : features_) world_->surroundings.feature_changed(p);
     for (const Order& order : orders_) carry_out(order);
@@ -364,7 +392,11 @@ void TileMesher<D>::run_part(int part) {
 template <int D>
 void TileMesher<D>::run_stars() {
   counts_.run += engine_->template run<detail::run_stars<D>>().executed;
-  world_->vertices.keep_triangulation();
+  if (has_features_in_space()) {
+    world_->vertices.end_reading();
+  } else {
+    world_->vertices.keep_triangulation();
+  }
 }
 
 template <int D>
@@ -428,7 +460,11 @@ std::vector<Message<D>> TileMesher<D>::collect(Changes* changes) {
 
 template <int D>
 void TileMesher<D>::commit_lines() noexcept {
-  if constexpr (D == 2) world_->segments.commit();
+  if constexpr (D == 2) {
+    world_->segments.commit();
+  } else {
+    if (own_features_.any()) own_features_.commit();
+  }
 }
 
 // Who is found for a tile, or bounds what it is asked for.
@@ -475,7 +511,7 @@ template <int D>
 void TileMesher<D>::collect_births(std::vector<Message<D>>& out) {
   using Kind = typename Message<D>::Kind;
   std::map<Birth<D>, int> changed;
-  for (const auto& e : border_->take_births()) changed[e.birth] += e.sign;
+  for (const auto& e : border_->take_births()) changed[named(e.birth)] += e.sign;
   for (const auto& [birth, sum] : changed) {
     if (sum == 0) continue;
     const auto to = static_cast<std::uint32_t>(all_.owner(birth.p));
@@ -596,7 +632,7 @@ void TileMesher<D>::collect_changes(const Log& log, Changes& changes) const {
     const Vertex<D>& v = pool[h];
     if (!border_->owns(v.p)) continue;
     const bool same = v.alive == v.committed && v.kind() == v.committed_kind;
-    if (same) continue;
+    if (same && !has_features_in_space()) continue;
     if (v.committed) changes.vertices.push_back({v.p, v.committed_kind, false});
     if (v.alive) changes.vertices.push_back({v.p, v.kind(), true});
   }
@@ -653,7 +689,7 @@ std::string TileMesher<D>::fault_with(const TileMesher& other) const {
   });
   border_->for_each_birth([&](const Birth<D>& birth) {
     if (all_.owner(birth.p) == other.self_ &&
-        !other.has_arrived(self_, birth.p, {birth.turn, birth.role})) {
+        !other.has_arrived(self_, birth.p, {birth.turn, named(birth.role)})) {
       fault = "a vertex that tile " + std::to_string(self_) + " has made has not arrived";
     }
   });
@@ -682,6 +718,8 @@ void TileMesher<D>::check_invariants() const {
   if constexpr (D == 2) {
     world_->segments.check_invariants();
     world_->leaves.check_invariants();
+  } else {
+    world_->plc.check_invariants();
   }
 }
 

@@ -11,6 +11,8 @@
 // In the plane all tiles have all segments and all leaves. Which leaf is cut, and when, is a
 // function of who asks for it: a call that does says so to all tiles, and each makes the same cut,
 // at the same turn.
+// In space all tiles have all edges and polygons: Complete looks at those beside its cell, and what
+// it puts on them is born as any vertex is.
 // All tiles have all limits of size. Each fills its own territory: what keeps the lattice away is a
 // function of the input, of which all tiles look at the same features.
 #pragma once
@@ -22,12 +24,15 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <unordered_map>
+#include <variant>
 #include <vector>
 
 #include "borders/tile_border.hpp"
 #include "borders/turn.hpp"
 #include "program/world.hpp"
+#include "tiles/space_features.hpp"
 
 namespace mesher::detail {
 
@@ -71,10 +76,11 @@ struct CommonOrders {
     std::vector<Box<D>> where{};  // which differ here
   };
   LineOrders lines{};
+  FeatureOrders features_in_space{};
   std::optional<LimitsChange> limits{};  // nothing: they stay
   std::vector<Point<D>> features{};      // where features' points have come or gone
   [[nodiscard]] bool is_empty() const noexcept {
-    return lines.is_empty() && !limits && features.empty();
+    return lines.is_empty() && features_in_space.is_empty() && !limits && features.empty();
   }
   [[nodiscard]] CommonOrders inverse() const;
 };
@@ -159,7 +165,9 @@ class TileMesher {
       VertexKind kind;
       bool came;
     };
-    std::vector<Event> vertices;  // in their order
+    // In their order. Where there are features in space, those of which the role may be another,
+    // too.
+    std::vector<Event> vertices;
     // Of a leaf.
     struct LeafEvent {
       Piece piece;
@@ -184,6 +192,13 @@ class TileMesher {
   void for_each_own(Visit&& visit) const {
     world_->vertices.for_each_simplex([&](const Simplex& t) {
       if (outputs(t)) visit(t);
+    });
+  }
+  /// Calls visit(v) for the vertices of the territory, without those on the sides of the box.
+  template <class Visit>
+  void for_each_own_vertex(Visit&& visit) const {
+    world_->vertices.pool().for_each([&](const Vertex<D>& v) {
+      if (v.alive && !v.boundary && border_->owns(v.p)) visit(v);
     });
   }
   /// Calls visit(piece, lo, hi) for the leaves that it outputs: those that begin in the territory.
@@ -231,6 +246,7 @@ class TileMesher {
     double radius;       // locate: the pitch
     Role role{};         // locate, arrive
     Piece piece{};       // cut
+    bool asks_nearest = false;  // arrive: see Birth
   };
   struct Asked {                                                    // of another tile
     std::unordered_map<Look<D>, std::uint32_t, TurnHash<D>> looks;  // how often
@@ -264,6 +280,8 @@ class TileMesher {
   void carry_out_cut(const Order& order);
   void locate(const Order& order, VertexRef<D> v);
   [[nodiscard]] Role own(Role role) const;
+  [[nodiscard]] bool has_features_in_space() const noexcept;
+  [[nodiscard]] Birth<D> named(Birth<D> birth) const noexcept;
   [[nodiscard]] Piece named(Piece piece) const noexcept;
   [[nodiscard]] Piece own(Piece piece) const;
   void ask(std::uint32_t from, const Look<D>& look);
@@ -291,6 +309,8 @@ class TileMesher {
   std::unique_ptr<sac::Engine> engine_;
   std::unique_ptr<TileBorder<D>> border_;
   std::unique_ptr<World<sac::Scope, D>> world_;
+  using OwnFeatures = std::conditional_t<D == 3, SpaceFeatures, std::monostate>;
+  OwnFeatures own_features_;
   std::vector<std::shared_ptr<const CommonOrders<D>>> common_;
   std::vector<Point<D>> features_;  // that concern this tile
   std::vector<Order> orders_;

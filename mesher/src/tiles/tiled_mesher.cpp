@@ -130,13 +130,14 @@ template <int D>
 void TiledMesher<D>::watch(const Ask& ask) {
   ask_ = ask;
   asker_ = std::this_thread::get_id();
-  stops_ = false;
+  stops_ = gives_up_ = false;
   calls_ = 0;
   for (const auto& tile : tiles_) {
     tile->watch([this](std::uint64_t calls) {
       const std::uint64_t all = calls_ += calls;
-      if (!ask_) return true;
-      if (std::this_thread::get_id() == asker_ && !stops_ && !ask_(phase_, all)) stops_ = true;
+      if (phase_ == Phase::update && all > most_calls_) stops_ = gives_up_ = true;
+      const bool asks = ask_ && std::this_thread::get_id() == asker_ && !stops_;
+      if (asks && !ask_(phase_, all)) stops_ = true;
       return !stops_;
     });
   }
@@ -470,6 +471,7 @@ void TiledMesher<D>::take_back(const Edits& edits, const Common& common) noexcep
   if (!std::exchange(is_edited_, false)) return;
   if (least_of(is_exact_ ? 1 : 0) == 0) return;
   unwatch();
+  calls_ = 0;
   attempt([&] {
     is_exact_ = false;
     Edits inverse(edits.size());

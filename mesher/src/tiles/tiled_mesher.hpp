@@ -120,6 +120,10 @@ class TiledMesher {
   /// Those of the last update, which has thrown: by a run of their inverses. If that fails, too,
   /// or is not done, every further update throws sac::UsageError.
   void take_back(const Edits& edits, const Common& common = nullptr) noexcept;
+  /// An update of more calls ends as if `ask` had stopped it; has_given_up() says so. What does not
+  /// settle is sooner done anew, since a first run goes bucket by bucket.
+  void set_most_calls(std::uint64_t most) noexcept { most_calls_ = most; }
+  [[nodiscard]] bool has_given_up() const noexcept { return gives_up_; }
 
   /// Tiles of this process.
   [[nodiscard]] std::size_t size() const noexcept { return tiles_.size(); }
@@ -208,6 +212,8 @@ class TiledMesher {
   std::thread::id asker_;
   std::atomic<bool> stops_ = false;
   std::atomic<std::uint64_t> calls_ = 0;
+  std::uint64_t most_calls_ = ~std::uint64_t{0};
+  std::atomic<bool> gives_up_ = false;
 };
 
 }  // namespace mesher::detail

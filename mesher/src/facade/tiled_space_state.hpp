@@ -1,0 +1,71 @@
+// The state of a mesher of points, lines and polygons in space, in tiles.
+//
+// It is a SpaceState whose program ends when polygons have their vertices of before refinement:
+// that is a function of the input alone. What it finds becomes edits of tiles, which have all edges
+// and polygons. The tiles say which vertices there are; these are set here, and triangulated, so
+// that all that is asked of a mesh is asked here, as of one thread's.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "facade/space_state.hpp"
+#include "facade/tiled_state.hpp"
+
+namespace mesher::detail {
+
+class TiledSpaceState final : public SpaceState {
+ public:
+  /// Throws: Error(bad_option).
+  explicit TiledSpaceState(const Options<3>& options);
+
+  /// Both throw NotInTiles, too.
+  Change<3> first_run(Edits<3> edits, const RunControl& control, const Accept& accept) override;
+  /// Throws NotInTilesYet, too.
+  Change<3> propagate(const Edits<3>& edits, const RunControl& control,
+                      const Accept& accept) override;
+  /// Points, lines and polygons.
+  [[nodiscard]] bool takes(const Edits<3>& edits) const noexcept override { return !edits.limits; }
+
+  [[nodiscard]] MeshStats stats() const override;
+  [[nodiscard]] const sac::Engine& engine() const noexcept override {
+    return (*tiles_)[0].engine();
+  }
+  void check_invariants() const override;
+
+  [[nodiscard]] const TiledMesher<3>& tiles() const noexcept { return *tiles_; }
+
+ private:
+  using Tiles = TiledMesher<3>;
+  using Located = TileMesher<3>::Located;
+  // What tiles are told of a vertex of before refinement.
+  struct Told {
+    std::optional<Located> located;  // nothing: it is none
+    bool is_input = false;
+    friend bool operator==(const Told&, const Told&) = default;
+  };
+  struct News {
+    Tiles::Edits by_tile;
+    CommonOrders<3> common;
+    std::vector<std::pair<VertexHandle, Told>> told;  // as it was before
+  };
+
+  void find_levels();
+  [[nodiscard]] std::unique_ptr<Tiles> build(const Tiles::Ask& ask);
+  [[nodiscard]] Told now(const Vertex<3>& v) const;
+  void find_news(News& news);
+  void take_back(const News& news) noexcept;
+  void set_vertex(const Point<3>& p);
+  void set_touched() noexcept;
+
+  Options<3> options_;
+  Alone alone_;
+  std::vector<Told> told_;  // by handle
+  std::unique_ptr<Tiles> tiles_;
+};
+
+/// Whether a mesher that begins with these edits may be such a one.
+[[nodiscard]] bool may_have_complexes_tiled(const Options<3>& options, const Edits<3>& edits);
+
+}  // namespace mesher::detail
