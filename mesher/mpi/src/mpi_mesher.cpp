@@ -58,6 +58,14 @@ void MpiMesher<D>::move(PointId id, const Point<D>& point) {
   (*impl_)->move(id, point);
 }
 template <int D>
+void MpiMesher<D>::limit(const SizeLimits<D>& limits) {
+  (*impl_)->limit(limits);
+}
+template <int D>
+void MpiMesher<D>::limit(const Box<D>& box, const SizeLimits<D>& limits) {
+  (*impl_)->limit(box, limits);
+}
+template <int D>
 void MpiMesher<D>::discard_edits() noexcept {
   (*impl_)->discard_edits();
 }

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "facade/announced_points.hpp"
+#include "facade/joint_limits.hpp"
+#include "facade/pending_limits.hpp"
 #include "facade/reentry_guard.hpp"
 #include "facade/tiled_state.hpp"
 #include "mesher/mesher.hpp"
@@ -42,11 +44,20 @@ class JointMesher {
   void insert(PointId id, const Point<D>& p) { announce({Kind::insert, id, p}); }
   void remove(PointId id) { announce({Kind::remove, id, {}}); }
   void move(PointId id, const Point<D>& p) { announce({Kind::move, id, p}); }
+  /// Limits of size, everywhere or in a box. Those with a function are announced by all processes
+  /// (joint_limits.hpp).
+  void limit(const SizeLimits<D>& limits) { announce({std::nullopt, limits}); }
+  void limit(const Box<D>& box, const SizeLimits<D>& limits) { announce({box, limits}); }
   /// Of this process.
-  void discard_edits() noexcept { announced_.clear(); }
+  void discard_edits() noexcept {
+    announced_.clear();
+    announced_limits_.clear();
+  }
 
   /// Of all. Makes the edits of all processes, those of the first one first; places are judged when
-  /// all are made. Throws: as Mesher::update and announcing to one; what control.progress of one
+  /// all are made. Where limits change everywhere, tiles begin anew, and parts may change hands.
+  /// What tiles refuse because of limits the first process meshes alone, to say it as one process
+  /// would. Throws: as Mesher::update and announcing to one; what control.progress of one
   /// process throws is std::runtime_error in others. The mesh is then as before in all; the edits
   /// stay announced if it is Error(cancelled), else they are discarded, in all.
   Change<D> update(const RunControl& control = {}, Told told = Told::all);
@@ -65,6 +76,7 @@ class JointMesher {
   /// Points of the last update.
   [[nodiscard]] std::size_t size() const noexcept { return state_->size(); }
   [[nodiscard]] std::vector<GraphPoint<D>> points() const { return state_->points(); }
+  /// With the limits of the last update.
   [[nodiscard]] const Options<D>& options() const noexcept { return options_; }
   [[nodiscard]] Peers& peers() const noexcept { return *peers_; }
   /// Requires: an update.
@@ -79,18 +91,36 @@ class JointMesher {
     Point<D> p;
   };
 
+  // Of this process, and what kind the vertices removed were, if these may be added in another.
+  struct Part {
+    Change<D> change;
+    std::vector<VertexKind> kinds_removed;
+  };
+
   void announce(const Announcement& edit);
+  void announce(AnnouncedLimits<D> limits);
   void require_equal_options();
+  void require_equal(const Packer& mine, const char* what);
   void collect(const RunControl& control);
+  void limit_all(const std::vector<AnnouncedLimits<D>>& limits);
   Change<D> run(const RunControl& control, Told told);
-  void tell(Change<D>& change, Told told) const;
+  Change<D> run_or_alone(const RunControl& control, Told told);
+  Change<D> run_anew(const RunControl& control, Told told, std::size_t tiles);
+  void refuse_alone(const RunControl& control);
+  [[nodiscard]] Part part_from_last(Change<D>& whole) const;
+  [[nodiscard]] Change<D> told_of(Part part, Told told) const;
+  static void pack(const Part& part, Packer& to);
+  static Change<D> joined(const std::vector<Bytes>& parts);
+  void clear_collected() noexcept;
 
   std::unique_ptr<Peers> peers_;
   Options<D> options_;
   MeshBox<D> box_;
   std::unique_ptr<TiledState<D>> state_;
   std::vector<Announcement> announced_;  // in this process
+  JointLimits<D> announced_limits_;      // likewise
   AnnouncedPoints<D> edits_;             // in all
+  PendingLimits<D> limits_;              // likewise
   StagedLines no_lines_;
   StagedPolygons no_polygons_;
   ReentryGuard busy_;

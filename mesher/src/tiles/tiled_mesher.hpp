@@ -164,6 +164,7 @@ class TiledMesher {
   struct Next {                 // of all processes
     std::optional<Time> first;  // of the messages that wait
     bool is_dirty;
+    bool has_faults;
   };
   [[nodiscard]] Next agree_on_next();
   void sort_messages();
