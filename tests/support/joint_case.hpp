@@ -134,6 +134,8 @@ class JointCase {
     demand(stats.vertices == expected.vertices, when + ": number of vertices");
     demand(stats.simplices == expected.simplices, when + ": number of simplices");
     joint_.check_invariants();
+    const std::string fault = joint_.certificate();
+    demand(fault.empty(), when + ": the certificate: " + fault);
   }
 
   void check_statically() {

@@ -123,6 +123,10 @@ int MpiMesher<D>::ranks() const noexcept {
   return static_cast<int>((*impl_)->peers().size());
 }
 template <int D>
+std::string MpiMesher<D>::certificate() const {
+  return (*impl_)->certificate();
+}
+template <int D>
 void MpiMesher<D>::check_invariants() const {
   (*impl_)->check_invariants();
 }

@@ -411,6 +411,11 @@ JointCounts JointMesher<D>::counts() const {
 }
 
 template <int D>
+std::string JointMesher<D>::certificate() const {
+  return state_->ran() ? tiles().certificate() : std::string();
+}
+
+template <int D>
 void JointMesher<D>::check_invariants() const {
   if (state_->ran()) state_->check_invariants();
 }

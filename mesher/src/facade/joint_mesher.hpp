@@ -9,6 +9,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "facade/announced_points.hpp"
@@ -72,6 +73,10 @@ class JointMesher {
 
   /// Of all. Requires: an update.
   [[nodiscard]] JointCounts counts() const;
+
+  /// Of all: what does not fit between what tiles know of each other (TileMesher::said); empty:
+  /// nothing, and the mesh is certain to be that of one process.
+  [[nodiscard]] std::string certificate() const;
 
   /// Points of the last update.
   [[nodiscard]] std::size_t size() const noexcept { return state_->size(); }

@@ -585,6 +585,65 @@ std::string TiledMesher<D>::certificate_fault() const {
   return {};
 }
 
+// What the tiles of this process have said to those of others.
+template <int D>
+void TiledMesher<D>::pack_said(std::vector<Packer>& to) const {
+  for (std::size_t t = 0; t < tiles_.size(); ++t) {
+    const std::vector<KnownOf> said = tiles_[t]->said();
+    for (std::size_t other = 0; other < said.size(); ++other) {
+      if (own_index(other)) continue;
+      Packer& bytes = to[process_of_[other]];
+      bytes.put(std::uint64_t{first_ + t}), bytes.put(std::uint64_t{other}), bytes.put(said[other]);
+    }
+  }
+}
+
+// And what others' tiles have said, beside what those of this process have heard.
+template <int D>
+std::string TiledMesher<D>::fault_of_heard(const std::vector<Bytes>& said) const {
+  std::vector<std::vector<KnownOf>> heard;
+  for (const auto& tile : tiles_) heard.push_back(tile->heard());
+  std::size_t pairs = 0;
+  for (const Bytes& some : said) {
+    for (Unpacker rest(some); !rest.is_empty(); ++pairs) {
+      const auto from = static_cast<std::size_t>(rest.take<std::uint64_t>());
+      const auto to = static_cast<std::size_t>(rest.take<std::uint64_t>());
+      const std::size_t own = *own_index(to);
+      std::string fault = difference(rest.take<KnownOf>(), heard[own][from], from, to);
+      if (fault.empty()) fault = tiles_[own]->answers_fault(from);
+      if (!fault.empty()) return fault;
+    }
+  }
+  SAC_ENSURES(pairs == tiles_.size() * (all_.size() - tiles_.size()));
+  return {};
+}
+
+template <int D>
+std::string TiledMesher<D>::certificate() const {
+  std::string fault;
+  std::vector<Packer> said(peers_.size());
+  Peers::Views views(peers_.size());
+  together(peers_, [&] {
+    fault = certificate_fault();
+    pack_said(said);
+    for (std::size_t k = 0; k < said.size(); ++k) views[k] = said[k].bytes();
+  });
+  const std::vector<Bytes> came = peers_.exchange(views);
+  Packer mine;
+  together(peers_, [&] {
+    if (fault.empty()) fault = fault_of_heard(came);
+    mine.put_all(std::string_view(fault));
+  });
+  const std::vector<Bytes> all = peers_.gather(mine.bytes());
+  together(peers_, [&] {
+    fault.clear();
+    for (const Bytes& one : all) {
+      if (fault.empty()) fault = Unpacker(one).take_text();
+    }
+  });
+  return fault;
+}
+
 template <int D>
 void TiledMesher<D>::check_invariants() const {
   SAC_INVARIANT(!broken_);
