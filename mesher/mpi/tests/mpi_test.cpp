@@ -183,6 +183,14 @@ void check_sizes_memory() {
   });
 }
 
+std::vector<std::array<Point<2>, 3>> corners_of(const mesher::Mesh<2>& mesh) {
+  std::vector<std::array<Point<2>, 3>> all;
+  for (const auto& [a, b, c] : mesh.simplices) {
+    all.push_back({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
+  }
+  return all;
+}
+
 // Pieces have each simplex once; other formats have the bytes of one process.
 void check_files() {
   const auto points = mesher::generate_points<2>(PointKind::uniform, 500, 3);
@@ -199,6 +207,12 @@ void check_files() {
     const mesher::Mesh<2> whole = mesher::read_mesh<2>(name + ".vtu");
     demand(whole == both.one().mesh(), "the merged file");
   }
+  mesher::write_pieces(m, name + ".msh");
+  const mesher::Mesh<2> msh = mesher::read_mesh<2>(name + "_" + std::to_string(self + 1) + ".msh");
+  demand(corners_of(msh) == corners_of(own), "a piece of Gmsh");
+  demand(!std::filesystem::exists(name + ".msh"), "pieces alone");
+  const auto no_pieces = support::code_of([&] { mesher::write_pieces(m, name + ".off"); });
+  demand(no_pieces == mesher::ErrorCode::unknown_format, "a format without pieces");
   const auto refused = support::code_of([&] { mesher::write_mesh(m, name + "/none/a.pvtu"); });
   demand(refused == mesher::ErrorCode::cannot_write, "a folder that is not there");
 }

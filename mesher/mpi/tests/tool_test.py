@@ -117,6 +117,7 @@ def check_errors():
         ([source, "-o", folder / "no.node", "--max-volume", 1], 2, "bad_option"),
         ([source, "-o", folder / "no.node", "--max-area", 1e-30], 2, "bad_option"),
         ([source, "-o", folder / "no.node", "--sizes", folder / "none.csv"], 2, "cannot_read"),
+        ([source, "-o", folder / "none" / "no.msh", "--pieces"], 2, "cannot_write"),
         ([source, "-o", folder / "none" / "no.pvtu"], 2, "cannot_write"),
         ([source, "-o", folder / "no.what"], 2, "unknown_format"),
         ([source, "--nonsense"], 2, "bad_option"),
@@ -147,7 +148,9 @@ def check_kills(times):
     good = folder / "good"
     good.mkdir()
     start = time.monotonic()
-    assert run_ranks(3, source, "-o", good / "a.pvtu", "-o", good / "a.node").returncode == 0
+    outputs = ("a.pvtu", "a.node", "a.msh")
+    paths = [word for name in outputs for word in ("-o", good / name)]
+    assert run_ranks(3, source, "--pieces", *paths).returncode == 0
     whole = time.monotonic() - start
     expected = {path.name: path.read_bytes() for path in good.iterdir()}
     left = folder / "left"
@@ -155,9 +158,9 @@ def check_kills(times):
         shutil.rmtree(left, ignore_errors=True)
         left.mkdir()
         delay = random.Random(seed).uniform(0.3, 1.1) * whole
-        run = subprocess.Popen([*mpirun, "-n", "3", tool, source, "-o", left / "a.pvtu", "-o",
-                                left / "a.node"], stdout=subprocess.DEVNULL,
-                               stderr=subprocess.DEVNULL)
+        paths = [word for name in outputs for word in ("-o", left / name)]
+        run = subprocess.Popen([*mpirun, "-n", "3", tool, source, "--pieces", *paths],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         time.sleep(delay)
         ranks = sorted(ranks_under(run.pid))
         if ranks:

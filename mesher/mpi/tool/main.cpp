@@ -15,6 +15,7 @@
 #include "mesher/sizes.hpp"
 #include "mesher/write.hpp"
 #include "mpi_peers.hpp"
+#include "write_msh_pieces.hpp"
 
 namespace {
 
@@ -37,7 +38,7 @@ struct Arguments {
   std::string sizes;
   std::size_t max_vertices = 0;
   int threads = 1;
-  bool stats = false;
+  bool pieces = false, stats = false;
 };
 
 // What the first rank says, for all.
@@ -118,6 +119,8 @@ class Program {
       if (!arguments_.script.empty()) files.protect(arguments_.script);
       if (mesher::format_of(path) == ".pvtu") {
         files.open(path);
+      } else if (is_in_pieces(path)) {
+        files.open(mesher::detail::msh_piece_name(path, 0));
       } else {
         static_cast<void>(mesher::open_mesh<D>(files, path));
       }
@@ -175,8 +178,13 @@ class Program {
     if (edit.kind == mesher::EditKind::insert) markers_[PointId{edit.number}] = edit.marker;
   }
 
+  bool is_in_pieces(const std::string& path) const {
+    return arguments_.pieces && mesher::format_of(path) == ".msh";
+  }
+
   void write(const mesher::MpiMesher<D>& m, const std::string& path) {
     if (mesher::format_of(path) == ".pvtu") return mesher::write_mesh(m, path);
+    if (is_in_pieces(path)) return mesher::write_pieces(m, path);
     mesher::Mesh<D> whole = m.gather();
     on_first([&] {
       mesher::WriteOptions how;
@@ -240,6 +248,9 @@ int run(int argc, char** argv, MpiPeers& peers) {
                  "The mesh: .pvtu and a .vtu file beside it for each rank; or one file, in any\n"
                  "format of 'mesher mesh', which the first rank gathers and writes")
       ->allow_extra_args(false);
+  app.add_flag("--pieces", arguments.pieces,
+               "NAME.msh is NAME_1.msh, NAME_2.msh, ..., one for each rank, as 'gmsh -part_split'\n"
+               "writes them");
   app.add_option("--script", arguments.script, "Edits that are made one batch after the other");
   app.add_option("--rho", arguments.rho, "The bound on circumradius over shortest edge");
   CLI::Option* area =

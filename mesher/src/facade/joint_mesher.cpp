@@ -356,6 +356,11 @@ Mesh<D> JointMesher<D>::own_mesh() const {
 }
 
 template <int D>
+JointNumbers JointMesher<D>::numbers(const Mesh<D>& own) const {
+  return state_->ran() ? joint_numbers(own, tiles(), *peers_) : JointNumbers();
+}
+
+template <int D>
 Mesh<D> JointMesher<D>::gather(std::size_t to) const {
   Packer mine;
   Mesh<D> whole;

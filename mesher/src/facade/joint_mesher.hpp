@@ -14,6 +14,7 @@
 
 #include "facade/announced_points.hpp"
 #include "facade/joint_limits.hpp"
+#include "facade/joint_numbers.hpp"
 #include "facade/pending_limits.hpp"
 #include "facade/reentry_guard.hpp"
 #include "facade/tiled_state.hpp"
@@ -66,6 +67,8 @@ class JointMesher {
   /// The simplices of this process, each of which no other has, and their vertices. Empty before
   /// the first update.
   [[nodiscard]] Mesh<D> own_mesh() const;
+  /// Of all: those of own_mesh(), which is `own`.
+  [[nodiscard]] JointNumbers numbers(const Mesh<D>& own) const;
   /// Of all: the mesh, in process `to`; empty in others.
   [[nodiscard]] Mesh<D> gather(std::size_t to = 0) const;
   /// Of all: sums, but of seconds the most.

@@ -117,6 +117,8 @@ class MpiMesher {
  private:
   template <int E>
   friend void write_mesh(const MpiMesher<E>&, const std::string&);
+  template <int E>
+  friend void write_pieces(const MpiMesher<E>&, const std::string&);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
@@ -127,5 +129,14 @@ class MpiMesher {
 /// Throws: Error (unknown_format, cannot_write), std::bad_alloc.
 template <int D>
 void write_mesh(const MpiMesher<D>& mesher, const std::string& path);
+
+/// Of all: writes the mesh in pieces, a file for each rank, whatever the format: .pvtu as
+/// write_mesh; for NAME.msh the files NAME_1.msh, NAME_2.msh, ..., as `gmsh -part_split` writes
+/// them (version 4.1, ASCII): the simplices of the rank in an entity of its partition, and their
+/// nodes. Numbers are those in the whole mesh, so a node of two pieces has one number. A piece is
+/// whole or not there; older ones of these names go before new ones appear. Throws: Error
+/// (unknown_format, cannot_write), std::bad_alloc.
+template <int D>
+void write_pieces(const MpiMesher<D>& mesher, const std::string& path);
 
 }  // namespace mesher
