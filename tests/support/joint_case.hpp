@@ -84,8 +84,9 @@ class JointCase {
   /// Whether it was done; both refuse in the same words.
   bool update(const std::string& when) {
     announce_limits();
-    for (const auto& [number, to] : edits_) {
-      const auto announce = [&, id = mesher::PointId{number}](auto& mesher) {
+    for (const auto& edit : edits_) {
+      const std::int64_t number = edit.first;
+      const auto announce = [&, id = mesher::PointId{number}, to = edit.second](auto& mesher) {
         const bool was = points_.count(number) != 0;
         if (was && to) mesher.move(id, *to);
         if (was && !to) mesher.remove(id);
