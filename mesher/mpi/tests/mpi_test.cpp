@@ -115,6 +115,27 @@ void check_failing_updates(MpiMesher<2>& m, const Announce& announce) {
   update();
 }
 
+// The same in updates that are refused: all say so, or all have no memory.
+template <class Announce>
+void check_failing_refusals(MpiMesher<2>& m, const Announce& announce) {
+  bool refused = false;
+  const auto update = [&] {
+    refused = support::code_of([&] { static_cast<void>(m.update()); }).has_value();
+  };
+  const mesher::Mesh<2> before = m.own_mesh();
+  bool burnt = true;
+  for (std::uint64_t count = 1; burnt; count += 1 + count / 12) {
+    burnt = refused = false;
+    announce();
+    const bool failed = fails_at(count, burnt, update);
+    burnt = least(burnt ? 0 : 1) == 0;
+    demand(failed != refused, "neither refused nor failed");
+    demand(burnt || least(refused ? 1 : 0) == 1, "all refuse it");
+    demand(m.own_mesh() == before, "a failure leaves the mesh");
+    m.check_invariants();
+  }
+}
+
 // One allocation after the other fails on the last rank: no rank gets a mesher, and all take an
 // update back.
 void check_memory() {
@@ -181,6 +202,10 @@ void check_sizes_memory() {
   check_failing_updates(m, [&] {  // all begin anew
     if (self == size - 1) m.limit({.max_measure = 6});
   });
+  const auto tiny = std::make_shared<mesher::SlopedSizes<2>>(
+      [](const Point<2>& p) { return p[0] > 5 && p[1] > 5 ? 1e-15 : 4.0; }, 0, 1e-15);
+  check_failing_refusals(m, [&] { m.limit({{2, 2}, {9, 8}}, {.sizes = tiny}); });
+  check_failing_refusals(m, [&] { m.limit({.sizes = tiny}); });
 }
 
 std::vector<std::array<Point<2>, 3>> corners_of(const mesher::Mesh<2>& mesh) {

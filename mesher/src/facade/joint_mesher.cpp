@@ -2,6 +2,8 @@
 #include "facade/joint_mesher.hpp"
 
 #include <algorithm>
+#include <exception>
+#include <new>
 #include <numeric>
 
 #include "facade/settled.hpp"
@@ -210,10 +212,14 @@ Change<D> JointMesher<D>::run(const RunControl& control, Told told) {
         Edits<D>{edits_.pending().sorted(), no_lines_, no_polygons_, limits_.edit(options_)});
   });
   if (state_->is_sooner_anew(*edits)) {
+    std::exception_ptr other;
     try {
       return run_anew(control, told, 0);
     } catch (const Error&) {  // it is said in the words of an update
+    } catch (...) {
+      other = std::current_exception();
     }
+    require_none(other);
   }
   return state_->propagate(*edits, control, [&](Change<D>& change) {
     change = told_of({change, {}}, told);
@@ -222,12 +228,26 @@ Change<D> JointMesher<D>::run(const RunControl& control, Told told) {
 
 template <int D>
 Change<D> JointMesher<D>::run_or_alone(const RunControl& control, Told told) {
+  std::exception_ptr other;
   try {
     return run(control, told);
   } catch (const NotInTiles&) {
+  } catch (...) {
+    other = std::current_exception();
   }
+  require_none(other);
   refuse_alone(control);
   return run_anew(control, told, 1);  // whose calls are those of one process
+}
+
+// All have failed. One of them may have had no memory to throw what the others have: then none goes
+// on. Throws: `other`, or std::bad_alloc, if it is something in one of them.
+template <int D>
+void JointMesher<D>::require_none(const std::exception_ptr& other) {
+  std::uint64_t is_none = other ? 0 : 1;
+  peers_->least({&is_none, 1});
+  if (other) std::rethrow_exception(other);
+  if (is_none == 0) throw std::bad_alloc();
 }
 
 // A state from the start, of all points.

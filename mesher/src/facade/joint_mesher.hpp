@@ -8,6 +8,7 @@
 // in all, or in none (peers.hpp).
 #pragma once
 
+#include <exception>
 #include <memory>
 #include <string>
 #include <vector>
@@ -115,6 +116,7 @@ class JointMesher {
   Change<D> run_or_alone(const RunControl& control, Told told);
   Change<D> run_anew(const RunControl& control, Told told, std::size_t tiles);
   void refuse_alone(const RunControl& control);
+  void require_none(const std::exception_ptr& other);
   [[nodiscard]] Part part_from_last(Change<D>& whole) const;
   [[nodiscard]] Change<D> told_of(Part part, Told told) const;
   static void pack(const Part& part, Packer& to);
