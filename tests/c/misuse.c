@@ -174,6 +174,11 @@ static lm_status look_at_names(void) {
   return status;
 }
 static const int64_t kSides[] = {4, 2, 1, 3}; /* markers of a square: left, right, bottom, top */
+static const char* tile_folder(void) {
+  static char all[512];
+  snprintf(all, sizeof all, "%s/tiles", folder);
+  return all;
+}
 static lm_options* options(void) {
   WITH_ROOM(lm_options, all);
   static lm_box_limits boxes[128]; /* two, and room */
@@ -199,6 +204,11 @@ static lm_options* options(void) {
     all->periodic = once_in(20) ? NULL : pairs;
     all->periodic_count = below(3);
   }
+  if (once_in(12)) {
+    all->out_of_core = once_in(4) ? path() : tile_folder();
+    all->tiles = below(4);
+  }
+  if (once_in(40)) all->tiles = any();
   all->region_limits = small(2);
   all->no_flat = small(2);
   if (once_in(9)) {

@@ -2,6 +2,7 @@
 import gc
 import importlib.util
 import os
+import pathlib
 import tempfile
 import unittest
 
@@ -56,6 +57,54 @@ class Plane(unittest.TestCase):
         self.assertTrue(counts[0] < counts[1] < counts[2], counts)
         with self.assertRaises(lm.Error):
             lm.mesh(points, growth=1.01)
+
+    def test_out_of_core(self):
+        points = np.random.default_rng(3).random((3000, 2))
+        whole = lm.mesh(points, algorithm="gap_balls")
+        with tempfile.TemporaryDirectory() as folder:
+            scratch = pathlib.Path(folder, "scratch")
+            for tiles, threads in ((0, 1), (3, 1), (5, 2)):
+                m = lm.mesh(points, out_of_core=scratch, tiles=tiles, threads=threads)
+                np.testing.assert_array_equal(m.points, whole.points)
+                np.testing.assert_array_equal(m.cells, whole.cells)
+                np.testing.assert_array_equal(m.point_kinds, whole.point_kinds)
+
+            steps = 0
+
+            def stop(_):
+                nonlocal steps
+                steps += 1
+                return steps < 3
+
+            with self.assertRaises(lm.Cancelled):
+                lm.mesh(points, out_of_core=scratch, tiles=4, progress=stop)
+            again = lm.mesh(points, out_of_core=scratch, tiles=4)
+            np.testing.assert_array_equal(again.cells, whole.cells)
+
+            for code, more in (("bad_option", dict(max_area=.01)), ("bad_option", dict(growth=2)),
+                               ("bad_option", dict(algorithm="svr")),
+                               ("unsupported", dict(segments=[(0, 1)]))):
+                with self.subTest(code, **more), self.assertRaises(lm.GeometryError) as e:
+                    lm.mesh(points, out_of_core=scratch, **more)
+                self.assertEqual(e.exception.code, code)
+            twice = np.concatenate((points, points[7:8]))
+            with self.assertRaises(lm.GeometryError) as e:
+                lm.mesh(twice, out_of_core=scratch)
+            self.assertEqual(e.exception.code, "duplicate_point")
+            file = pathlib.Path(folder, "file")
+            file.write_text("x")
+            with self.assertRaises(lm.FileError):
+                lm.mesh(points, out_of_core=file, tiles=2)
+            self.assertEqual(file.read_text(), "x")
+
+    def test_out_of_core_in_space(self):
+        points = np.random.default_rng(3).random((300, 3))
+        for no_flat in (False, True):
+            whole = lm.mesh(points, algorithm="gap_balls", no_flat=no_flat)
+            with tempfile.TemporaryDirectory() as folder:
+                m = lm.mesh(points, out_of_core=folder, tiles=2, no_flat=no_flat)
+            np.testing.assert_array_equal(m.points, whole.points)
+            np.testing.assert_array_equal(m.cells, whole.cells)
 
     def test_example_of_the_package(self):
         rng = np.random.default_rng(1)

@@ -8,12 +8,14 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "code_of.hpp"
 #include "facade/box_mesher.hpp"
 #include "facade/mesh_statically.hpp"
 #include "mesher/extra/generate.hpp"
+#include "sizes/sampled_sizes.hpp"
 
 namespace support {
 
@@ -21,6 +23,19 @@ namespace support {
 /// test framework does not listen.)
 inline void demand(bool holds, const std::string& text) {
   if (!holds) throw std::logic_error(text);
+}
+
+/// What the Error says that act() throws; nothing if it throws none.
+template <class Act>
+std::string said_by(Act&& act) {
+  try {
+    act();
+  } catch (const mesher::Error& e) {
+    std::string text = std::string(mesher::code_name(e.code())) + ": " + e.what();
+    for (const auto& f : e.features()) text += "; " + mesher::text_of(f);
+    return text;
+  }
+  return {};
 }
 
 template <int D>
@@ -46,13 +61,7 @@ class JointCase {
   void run(int steps) {
     for (int step = 0; step < steps; ++step) {
       const std::uint64_t edits = 1 + random_.below(5);
-      for (std::uint64_t i = 0; i < edits; ++i) {
-        const std::uint64_t what = random_.below(4);
-        const auto any = any_id();
-        if (any && what == 0) edit(*any, std::nullopt);
-        if (any && what == 1) edit(*any, near(points_.at(*any), random_.below(2) ? 1e-6 : 0.1));
-        if (!any || what > 1) edit(next_++, any_place());
-      }
+      for (std::uint64_t i = 0; i < edits; ++i) edit_any();
       update("step " + std::to_string(step));
     }
     check_statically();
@@ -60,10 +69,24 @@ class JointCase {
 
   /// Another process announces: the same id once an update.
   void edit(std::int64_t number, const std::optional<mesher::Point<D>>& to) { edits_[number] = to; }
+  /// Everywhere, or in a box; announced by all if there is a function.
+  void limit(const std::optional<mesher::Box<D>>& box, const mesher::SizeLimits<D>& limits) {
+    limits_.push_back({box, limits});
+  }
+  void edit_any() {
+    const std::uint64_t what = random_.below(4);
+    const auto any = any_id();
+    if (any && what == 0) edit(*any, std::nullopt);
+    if (any && what == 1) edit(*any, near(points_.at(*any), random_.below(2) ? 1e-6 : 0.1));
+    if (!any || what > 1) edit(next_++, any_place());
+  }
 
-  void update(const std::string& when) {
-    for (const auto& [number, to] : edits_) {
-      const auto announce = [&, id = mesher::PointId{number}](auto& mesher) {
+  /// Whether it was done; both refuse in the same words.
+  bool update(const std::string& when) {
+    announce_limits();
+    for (const auto& edit : edits_) {
+      const std::int64_t number = edit.first;
+      const auto announce = [&, id = mesher::PointId{number}, to = edit.second](auto& mesher) {
         const bool was = points_.count(number) != 0;
         if (was && to) mesher.move(id, *to);
         if (was && !to) mesher.remove(id);
@@ -72,13 +95,15 @@ class JointCase {
       announce(one_);
       if (static_cast<std::size_t>(number) * 7 % size_ == self_) announce(joint_);
     }
-    for (const auto& [number, to] : edits_) {
-      if (to) points_[number] = *to;
-      if (!to) points_.erase(number);
+    const auto edits = std::exchange(edits_, {});
+    mesher::Change<D> expected, change;
+    const std::string refused = said_by([&] { expected = one_.update(); });
+    const std::string refused_too = said_by([&] { change = joint_.update(); });
+    demand(refused_too == refused, when + ": \"" + refused_too + "\" is not \"" + refused + "\"");
+    for (const auto& [number, to] : edits) {
+      if (to && refused.empty()) points_[number] = *to;
+      if (!to && refused.empty()) points_.erase(number);
     }
-    edits_.clear();
-    const mesher::Change<D> expected = one_.update();
-    const mesher::Change<D> change = joint_.update();
     demand(change.vertices_added == expected.vertices_added, when + ": vertices added");
     demand(change.kinds_added == expected.kinds_added, when + ": kinds added");
     demand(change.vertices_removed == expected.vertices_removed, when + ": vertices removed");
@@ -86,6 +111,7 @@ class JointCase {
     demand(change.simplices_added == expected.simplices_added, when + ": simplices added");
     demand(change.simplices_removed == expected.simplices_removed, when + ": simplices removed");
     check(when);
+    return refused.empty();
   }
 
   /// The mesh is that of one, and so are the parts.
@@ -109,6 +135,8 @@ class JointCase {
     demand(stats.vertices == expected.vertices, when + ": number of vertices");
     demand(stats.simplices == expected.simplices, when + ": number of simplices");
     joint_.check_invariants();
+    const std::string fault = joint_.certificate();
+    demand(fault.empty(), when + ": the certificate: " + fault);
   }
 
   void check_statically() {
@@ -123,6 +151,22 @@ class JointCase {
   [[nodiscard]] const std::map<std::int64_t, mesher::Point<D>>& points() const { return points_; }
 
  private:
+  struct Limits {
+    std::optional<mesher::Box<D>> box;
+    mesher::SizeLimits<D> limits;
+  };
+
+  // Some process announces all that are no functions: their order is that of one.
+  void announce_limits() {
+    const std::uint64_t some = random_.below(size_);
+    for (const auto& [box, limits] : std::exchange(limits_, {})) {
+      const auto announce = [&, b = box, l = limits](auto& m) { b ? m.limit(*b, l) : m.limit(l); };
+      announce(one_);
+      const bool is_function =
+          limits.sizes != nullptr && mesher::detail::samples_of<D>(*limits.sizes) == nullptr;
+      if (is_function || some == self_) announce(joint_);
+    }
+  }
   static mesher::Options<D> alone(mesher::Options<D> options) {
     options.threads = 1;
     return options;
@@ -156,6 +200,7 @@ class JointCase {
   std::int64_t next_ = 1;
   std::map<std::int64_t, mesher::Point<D>> points_;
   std::map<std::int64_t, std::optional<mesher::Point<D>>> edits_;
+  std::vector<Limits> limits_;
 };
 
 /// An update that one process spoils leaves the mesh in all, and the next one works.

@@ -375,15 +375,21 @@ typedef struct lm_options {
   int32_t region_limits; /* whether the limits of regions count */
   int32_t no_flat;       /* in space, for lm_mesh_make: whether flat tetrahedra are removed, where
                             that is possible (mesher/improve.hpp) */
-  int32_t threads;       /* of live meshes, of points alone, at most 256; 0: one */
+  int32_t threads;       /* of live meshes, of points alone, or with out_of_core; at most 256;
+                            0: one */
   size_t box_limits_count;
   const lm_box_limits* box_limits;
   double growth; /* of sizes from one cell to the next, 1.05 to 100; 0: any. Not for live meshes */
   size_t periodic_count;   /* pairs of sides that fit together (mesher/periodic.hpp), for */
   const int64_t* periodic; /* lm_mesh_make in the plane: periodic_count x 2 markers of lines */
+  const char* out_of_core; /* lm_mesh_make, points alone: a folder, in which they are meshed tile
+                              after tile (mesher/out_of_core.hpp); NULL: in memory, at once */
+  uint64_t tiles;          /* then: how many, 0: by the number of points; threads: at a time */
 } lm_options;
 
-/* Meshes a graph, once. options, control: may be NULL. */
+/* Meshes a graph, once. options, control: may be NULL. With options->out_of_core the mesh is that
+ * of LM_GAP_BALLS, for much less memory; a call that is stopped, fails or is killed leaves tiles in
+ * the folder, with which one for the same points and options goes on. */
 LM_API lm_status lm_mesh_make(lm_handle graph, const lm_options* options, const lm_control* control,
                               lm_handle* mesh);
 

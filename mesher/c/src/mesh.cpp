@@ -5,12 +5,14 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <optional>
 
 #include "cell_quality.hpp"
 #include "control.hpp"
 #include "graph.hpp"
 #include "mesher/domain.hpp"
 #include "mesher/improve.hpp"
+#include "mesher/out_of_core.hpp"
 #include "mesher/periodic.hpp"
 #include "mesher/read.hpp"
 #include "mesher/write.hpp"
@@ -171,25 +173,65 @@ std::vector<mesher::PeriodicMarkers> periodic_of(const lm_options* user, int dim
   return pairs;
 }
 
+// Nothing if it is not wanted.
+std::optional<mesher::OutOfCore> out_of_core_of(const lm_options* user) {
+  if (user == nullptr) return std::nullopt;
+  const lm_options given = read_struct(user, "options");
+  if (given.out_of_core == nullptr) {
+    if (given.tiles == 0) return std::nullopt;
+    throw Failure(LM_BAD_ARGUMENT, "options->tiles is for options->out_of_core");
+  }
+  if (*given.out_of_core == '\0') {
+    throw Failure(LM_BAD_ARGUMENT, "options->out_of_core names no folder");
+  }
+  if (given.periodic_count > 0) {
+    throw Failure(LM_BAD_ARGUMENT, "options->periodic is not for options->out_of_core");
+  }
+  mesher::OutOfCore how{.folder = given.out_of_core};
+  how.tiles = static_cast<std::size_t>(given.tiles);
+  if (given.threads != 0) how.threads = given.threads;
+  return how;
+}
+
+template <int D>
+mesher::Mesh<D> box_out_of_core(const mesher::Graph<D>& graph, mesher::Options<D> options,
+                                const mesher::OutOfCore& how, const mesher::RunControl& control) {
+  bool has_more = !graph.segments.empty() || !graph.polylines.empty();
+  if constexpr (D == 3) has_more = has_more || !graph.polygons.empty();
+  if (has_more) {
+    throw mesher::Error(mesher::ErrorCode::unsupported,
+                        "out of core points alone are meshed, without lines and polygons");
+  }
+  std::vector<mesher::PointId> ids;
+  ids.reserve(graph.points.size());
+  for (const auto& p : graph.points) ids.push_back(p.id);
+  options.threads = 1;  // `how` has them
+  return mesher::box_mesh_out_of_core<D>(mesher::places_of(graph), options, how, ids, nullptr,
+                                         control);
+}
+
 // As mesher::mesh(), with periodic sides, and without flat tetrahedra, if that is wanted.
 template <int D>
 mesher::Meshed<D> meshed(const mesher::Graph<D>& graph, const mesher::Options<D>& options,
-                         const std::vector<mesher::PeriodicMarkers>& periodic, bool no_flat,
+                         const std::vector<mesher::PeriodicMarkers>& periodic,
+                         const std::optional<mesher::OutOfCore>& how, bool no_flat,
                          const mesher::RunControl& control) {
   if constexpr (D == 2) {
     if (!periodic.empty()) return mesher::periodic_mesh(graph, periodic, options, control);
   }
+  if (!how && (D == 2 || !no_flat)) return mesher::mesh(graph, options, control);
+  mesher::Meshed<D> made;
+  mesher::Mesh<D> all = how ? box_out_of_core(graph, options, *how, control)
+                            : mesher::box_mesh(graph, options, &made.report, control);
+  if (how) made.report.algorithm = mesher::Algorithm::gap_balls;
   if constexpr (D == 3) {
     if (no_flat) {
-      mesher::Meshed<D> made;
-      mesher::Mesh<D> all = mesher::box_mesh(graph, options, &made.report, control);
       all = mesher::without_flat_tetrahedra(std::move(all), radius_edge_bound(options)).mesh;
-      static_cast<mesher::DomainMesh<D>&>(made) =
-          mesher::domain_mesh(std::move(all), graph, options.extent);
-      return made;
     }
   }
-  return mesher::mesh(graph, options, control);
+  static_cast<mesher::DomainMesh<D>&>(made) =
+      mesher::domain_mesh(std::move(all), graph, options.extent);
+  return made;
 }
 
 template <int D>
@@ -198,8 +240,9 @@ lm_handle make(const GraphFile<D>& file, const lm_options* options, const lm_con
   if (!has_limits(file.graph)) all.region_areas = mesher::RegionAreas::ignored;  // a faster way
   const bool no_flat = options != nullptr && read_struct(options, "options").no_flat != 0;
   const auto periodic = periodic_of(options, D);
+  const auto how = out_of_core_of(options);
   mesher::Meshed<D> made = with_locations(
-      file, [&] { return meshed(file.graph, all, periodic, no_flat, control_of(control)); });
+      file, [&] { return meshed(file.graph, all, periodic, how, no_flat, control_of(control)); });
   const mesher::Algorithm algorithm = made.report.algorithm;
   const bool tells = !made.mesh.features.origins.empty();
   auto object =

@@ -5,7 +5,8 @@
 #include "mesher/mpi.hpp"
 #include "mesher/write.hpp"
 #include "mpi_peers.hpp"
-#include "write_pieces.hpp"
+#include "write_msh_pieces.hpp"
+#include "write_vtu_pieces.hpp"
 
 namespace mesher {
 
@@ -56,6 +57,14 @@ void MpiMesher<D>::remove(PointId id) {
 template <int D>
 void MpiMesher<D>::move(PointId id, const Point<D>& point) {
   (*impl_)->move(id, point);
+}
+template <int D>
+void MpiMesher<D>::limit(const SizeLimits<D>& limits) {
+  (*impl_)->limit(limits);
+}
+template <int D>
+void MpiMesher<D>::limit(const Box<D>& box, const SizeLimits<D>& limits) {
+  (*impl_)->limit(box, limits);
 }
 template <int D>
 void MpiMesher<D>::discard_edits() noexcept {
@@ -115,6 +124,10 @@ int MpiMesher<D>::ranks() const noexcept {
   return static_cast<int>((*impl_)->peers().size());
 }
 template <int D>
+std::string MpiMesher<D>::certificate() const {
+  return (*impl_)->certificate();
+}
+template <int D>
 void MpiMesher<D>::check_invariants() const {
   (*impl_)->check_invariants();
 }
@@ -123,7 +136,7 @@ template <int D>
 void write_mesh(const MpiMesher<D>& mesher, const std::string& path) {
   detail::Peers& peers = (*mesher.impl_)->peers();
   if (format_of(path) == ".pvtu") {
-    detail::write_pieces<D>(
+    detail::write_vtu_pieces<D>(
         peers, [&] { return mesher.own_mesh(); }, path);
     return;
   }
@@ -133,9 +146,24 @@ void write_mesh(const MpiMesher<D>& mesher, const std::string& path) {
   });
 }
 
+template <int D>
+void write_pieces(const MpiMesher<D>& mesher, const std::string& path) {
+  detail::JointMesher<D>& joint = **mesher.impl_;
+  const std::string format = format_of(path);
+  if (format == ".pvtu") return write_mesh(mesher, path);
+  if (format != ".msh") {
+    throw Error(ErrorCode::unknown_format, "pieces are .pvtu or .msh", {path});
+  }
+  Mesh<D> own;
+  detail::together(joint.peers(), [&] { own = mesher.own_mesh(); });
+  detail::write_msh_pieces(joint.peers(), own, joint.numbers(own), path);
+}
+
 template class MpiMesher<2>;
 template class MpiMesher<3>;
 template void write_mesh(const MpiMesher<2>&, const std::string&);
 template void write_mesh(const MpiMesher<3>&, const std::string&);
+template void write_pieces(const MpiMesher<2>&, const std::string&);
+template void write_pieces(const MpiMesher<3>&, const std::string&);
 
 }  // namespace mesher

@@ -1,7 +1,8 @@
 // Ranks: at every step the mesh, and the change, are those of one process, whatever happens on the
 // way. One case, by name, on the ranks that mpirun starts.
 //
-//   mpirun -n P mpi_test plane|space|places|failures|limit|memory|files FOLDER
+//   mpirun -n P mpi_test plane|space|places|failures|limit|memory|files|sizes|refused|sizes_memory
+//     FOLDER
 #include "mesher/mpi.hpp"
 
 #include <cstdio>
@@ -10,7 +11,7 @@
 #include <functional>
 
 #include "failing_new.hpp"
-#include "joint_case.hpp"
+#include "joint_limits_case.hpp"
 #include "mesher/read.hpp"
 
 namespace {
@@ -93,6 +94,48 @@ bool fails_at(std::uint64_t count, bool& burnt, const Act& act) {
   }
 }
 
+// One allocation after the other fails on the last rank, in an update of what announce() announces:
+// all take it back.
+template <class Announce>
+void check_failing_updates(MpiMesher<2>& m, const Announce& announce) {
+  const auto update = [&] { static_cast<void>(m.update()); };
+  const mesher::Mesh<2> before = m.own_mesh();
+  bool burnt = true;
+  for (std::uint64_t count = 1; burnt; count += 1 + count / 12) {
+    burnt = false;
+    announce();
+    const bool failed = fails_at(count, burnt, update);
+    burnt = least(burnt ? 0 : 1) == 0;
+    demand(least(failed ? 0 : 1) == (failed ? 0u : 1u), "one has failed, and others have not");
+    if (!failed) return;
+    demand(m.own_mesh() == before, "a failure leaves the mesh");
+    m.check_invariants();
+  }
+  announce();
+  update();
+}
+
+// The same in updates that are refused: all say so, or all have no memory.
+template <class Announce>
+void check_failing_refusals(MpiMesher<2>& m, const Announce& announce) {
+  bool refused = false;
+  const auto update = [&] {
+    refused = support::code_of([&] { static_cast<void>(m.update()); }).has_value();
+  };
+  const mesher::Mesh<2> before = m.own_mesh();
+  bool burnt = true;
+  for (std::uint64_t count = 1; burnt; count += 1 + count / 12) {
+    burnt = refused = false;
+    announce();
+    const bool failed = fails_at(count, burnt, update);
+    burnt = least(burnt ? 0 : 1) == 0;
+    demand(failed != refused, "neither refused nor failed");
+    demand(burnt || least(refused ? 1 : 0) == 1, "all refuse it");
+    demand(m.own_mesh() == before, "a failure leaves the mesh");
+    m.check_invariants();
+  }
+}
+
 // One allocation after the other fails on the last rank: no rank gets a mesher, and all take an
 // update back.
 void check_memory() {
@@ -107,33 +150,70 @@ void check_memory() {
     demand(least(failed ? 1 : 0) == (fails ? 1u : 0u), "a mesher on some ranks alone");
   }
   MpiMesher<2> m(MPI_COMM_WORLD, options);
-  const auto update = [&] { static_cast<void>(m.update()); };
-  const auto check = [&](const auto& announce) {
-    const mesher::Mesh<2> before = m.own_mesh();
-    bool burnt = true;
-    for (std::uint64_t count = 1; burnt; count += 1 + count / 12) {
-      burnt = false;
-      announce();
-      const bool failed = fails_at(count, burnt, update);
-      burnt = least(burnt ? 0 : 1) == 0;
-      demand(least(failed ? 0 : 1) == (failed ? 0u : 1u), "one has failed, and others have not");
-      if (!failed) return;
-      demand(m.own_mesh() == before, "a failure leaves the mesh");
-      m.check_invariants();
-    }
-    announce();
-    update();
-  };
-  check([&] {
+  check_failing_updates(m, [&] {
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (i % size == self) m.insert(PointId(i + 1), points[i]);
     }
   });
-  check([&] {
+  check_failing_updates(m, [&] {
     for (std::size_t i = 0; i < 4; ++i) {
       if (i % size == self) m.move(PointId(i + 1), {points[i][1], points[i][0]});
     }
   });
+}
+
+// --- Limits of size
+
+template <int D>
+std::unique_ptr<MpiMesher<D>> make(const mesher::Options<D>& options) {
+  return std::make_unique<MpiMesher<D>>(MPI_COMM_WORLD, options);
+}
+
+void check_sizes() {
+  std::uint64_t seed = 1;
+  for (const PointKind kind : kFamilies) {
+    support::check_limits_in_plane(make<2>, self, size, kind, 40, 6, seed++);
+  }
+  for (const PointKind kind : {PointKind::uniform, PointKind::grid}) {
+    support::check_limits_in_space(make<3>, self, size, kind, 20, 2, seed++);
+  }
+}
+
+void check_refused() {
+  support::check_limits_refused(make<2>, self, size);
+  support::check_limits_stopped(make<2>, self, size);
+}
+
+void check_sizes_memory() {
+  const auto points = support::limited_points<2>(PointKind::uniform, 16, 6);
+  const auto sloped = std::make_shared<mesher::SlopedSizes<2>>(
+      [](const Point<2>& p) { return 3 + 0.1 * p[0]; }, 0.1, 3);
+  MpiMesher<2> m(MPI_COMM_WORLD, support::limited_options<2>(1, {.max_measure = 8}));
+  check_failing_updates(m, [&] {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (i % size == self) m.insert(PointId(i + 1), points[i]);
+    }
+  });
+  check_failing_updates(m, [&] {
+    if (self == 0) m.move(PointId{3}, {points[3][1], points[3][0]});
+    m.limit({{2, 2}, {7, 6}}, {.sizes = sloped});
+    if (self == size - 1) m.limit({{5, 5}, {11, 9}}, {.max_measure = 2});
+  });
+  check_failing_updates(m, [&] {  // all begin anew
+    if (self == size - 1) m.limit({.max_measure = 6});
+  });
+  const auto tiny = std::make_shared<mesher::SlopedSizes<2>>(
+      [](const Point<2>& p) { return p[0] > 5 && p[1] > 5 ? 1e-15 : 4.0; }, 0, 1e-15);
+  check_failing_refusals(m, [&] { m.limit({{2, 2}, {9, 8}}, {.sizes = tiny}); });
+  check_failing_refusals(m, [&] { m.limit({.sizes = tiny}); });
+}
+
+std::vector<std::array<Point<2>, 3>> corners_of(const mesher::Mesh<2>& mesh) {
+  std::vector<std::array<Point<2>, 3>> all;
+  for (const auto& [a, b, c] : mesh.simplices) {
+    all.push_back({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
+  }
+  return all;
 }
 
 // Pieces have each simplex once; other formats have the bytes of one process.
@@ -152,6 +232,12 @@ void check_files() {
     const mesher::Mesh<2> whole = mesher::read_mesh<2>(name + ".vtu");
     demand(whole == both.one().mesh(), "the merged file");
   }
+  mesher::write_pieces(m, name + ".msh");
+  const mesher::Mesh<2> msh = mesher::read_mesh<2>(name + "_" + std::to_string(self + 1) + ".msh");
+  demand(corners_of(msh) == corners_of(own), "a piece of Gmsh");
+  demand(!std::filesystem::exists(name + ".msh"), "pieces alone");
+  const auto no_pieces = support::code_of([&] { mesher::write_pieces(m, name + ".off"); });
+  demand(no_pieces == mesher::ErrorCode::unknown_format, "a format without pieces");
   const auto refused = support::code_of([&] { mesher::write_mesh(m, name + "/none/a.pvtu"); });
   demand(refused == mesher::ErrorCode::cannot_write, "a folder that is not there");
 }
@@ -169,9 +255,11 @@ int main(int argc, char** argv) {
   const struct {
     const char* name;
     void (*check)();
-  } kCases[] = {{"plane", check_plane},   {"space", check_space}, {"failures", check_failures},
-                {"places", check_places}, {"limit", check_limit}, {"memory", check_memory},
-                {"files", check_files}};
+  } kCases[] = {{"plane", check_plane},       {"space", check_space},
+                {"failures", check_failures}, {"places", check_places},
+                {"limit", check_limit},       {"memory", check_memory},
+                {"files", check_files},       {"sizes", check_sizes},
+                {"refused", check_refused},   {"sizes_memory", check_sizes_memory}};
   bool is_known = false;
   try {
     for (const auto& one : kCases) {

@@ -69,6 +69,40 @@ def check_bytes():
                 assert cells == cells_of(expected.decode()), (name, ranks, edits)
 
 
+def check_limits():
+    """Limits of size, as options and as edits; backgrounds are told to all ranks."""
+    for name, arguments, limit, volume in (
+        ("plane.node", ["uniform", "--n", 300, "--seed", 3], "--max-area", "area"),
+        ("space.node", ["uniform", "--n", 40, "--seed", 3, "--dim", 3], "--max-volume", "volume"),
+    ):
+        source = make_input(name, *arguments)
+        in_space = name == "space.node"
+        sizes = folder / "sizes.csv"
+        z = ",z" if in_space else ""
+        corners = ["0,0,0.4", "1,0,0.3", "0,1,0.2", "1,1,0.25"]
+        if in_space:
+            corners = [f"{x},{y},{w},{.4 - .1 * x}" for x in (0, 1) for y in (0, 1)
+                       for w in (0, 1)]
+        sizes.write_text(f"x,y{z},h\n" + "\n".join(corners) + "\n")
+        box = "0.1 0.1 0.1 0.6 0.7 0.8" if in_space else "0.1 0.1 0.6 0.7"
+        script = folder / "limits.txt"
+        script.write_text(f"limit {volume} {0.004 if in_space else 0.0005} in {box}\n"
+                          f"begin\n-point 7\nlimit sizes sizes.csv\ncommit\n"
+                          f"limit size 0.3 in {box}\n")
+        for more in ([limit, 0.01], ["--max-size", 0.2], ["--sizes", sizes],
+                     [limit, 0.02, "--script", script]):
+            command = ["edit" if "--script" in more else "mesh", source, *more]
+            if "--script" not in more:
+                command += ["--algorithm", "gap-balls"]
+            expected = folder / "alone.node"
+            subprocess.run([mesher, *map(str, command), "-o", expected, "--quiet"], check=True)
+            made = run_ranks(3, source, *more, "-o", folder / "ranks.node")
+            assert made.returncode == 0, made.stderr
+            for end in (".node", ".ele"):
+                assert (folder / f"ranks{end}").read_bytes() == \
+                    expected.with_suffix(end).read_bytes(), (name, more, end)
+
+
 def check_errors():
     source = make_input("plane.node", "uniform", "--n", 300)
     far = folder / "far.txt"
@@ -78,6 +112,12 @@ def check_errors():
         ([source, "-o", folder / "no.pvtu", "--script", far], 1, "far.txt:2:1: error"),
         ([source, "-o", folder / "no.pvtu", "--max-vertices", 5], 4, "too_many"),
         ([source, "-o", folder / "no.pvtu", "--rho", 0.5], 2, "bad_option"),
+        ([source, "-o", folder / "no.node", "--max-area", -1], 2, "bad_option"),
+        ([source, "-o", folder / "no.node", "--max-area", "nan"], 2, "bad_option"),
+        ([source, "-o", folder / "no.node", "--max-volume", 1], 2, "bad_option"),
+        ([source, "-o", folder / "no.node", "--max-area", 1e-30], 2, "bad_option"),
+        ([source, "-o", folder / "no.node", "--sizes", folder / "none.csv"], 2, "cannot_read"),
+        ([source, "-o", folder / "none" / "no.msh", "--pieces"], 2, "cannot_write"),
         ([source, "-o", folder / "none" / "no.pvtu"], 2, "cannot_write"),
         ([source, "-o", folder / "no.what"], 2, "unknown_format"),
         ([source, "--nonsense"], 2, "bad_option"),
@@ -108,7 +148,9 @@ def check_kills(times):
     good = folder / "good"
     good.mkdir()
     start = time.monotonic()
-    assert run_ranks(3, source, "-o", good / "a.pvtu", "-o", good / "a.node").returncode == 0
+    outputs = ("a.pvtu", "a.node", "a.msh")
+    paths = [word for name in outputs for word in ("-o", good / name)]
+    assert run_ranks(3, source, "--pieces", *paths).returncode == 0
     whole = time.monotonic() - start
     expected = {path.name: path.read_bytes() for path in good.iterdir()}
     left = folder / "left"
@@ -116,9 +158,9 @@ def check_kills(times):
         shutil.rmtree(left, ignore_errors=True)
         left.mkdir()
         delay = random.Random(seed).uniform(0.3, 1.1) * whole
-        run = subprocess.Popen([*mpirun, "-n", "3", tool, source, "-o", left / "a.pvtu", "-o",
-                                left / "a.node"], stdout=subprocess.DEVNULL,
-                               stderr=subprocess.DEVNULL)
+        paths = [word for name in outputs for word in ("-o", left / name)]
+        run = subprocess.Popen([*mpirun, "-n", "3", tool, source, "--pieces", *paths],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         time.sleep(delay)
         ranks = sorted(ranks_under(run.pid))
         if ranks:
@@ -135,6 +177,7 @@ def check_kills(times):
 shutil.rmtree(folder, ignore_errors=True)
 folder.mkdir(parents=True)
 check_bytes()
+check_limits()
 check_errors()
 if sys.platform == "linux":
     check_kills(8)

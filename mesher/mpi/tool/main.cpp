@@ -12,8 +12,10 @@
 #include "mesher/meshing.hpp"
 #include "mesher/mpi.hpp"
 #include "mesher/read.hpp"
+#include "mesher/sizes.hpp"
 #include "mesher/write.hpp"
 #include "mpi_peers.hpp"
+#include "write_msh_pieces.hpp"
 
 namespace {
 
@@ -31,10 +33,12 @@ using mesher::detail::Unpacker;
 struct Arguments {
   std::string input, script;
   std::vector<std::string> outputs;
-  double rho = 0;  // 0: the default
+  double rho = 0;                                     // 0: the default
+  double max_area = 0, max_volume = 0, max_size = 0;  // 0: no limit
+  std::string sizes;
   std::size_t max_vertices = 0;
   int threads = 1;
-  bool stats = false;
+  bool pieces = false, stats = false;
 };
 
 // What the first rank says, for all.
@@ -58,6 +62,7 @@ class Program {
     on_first([&] { read(), require_outputs(); });
     mesher::MpiMesher<D> m(MPI_COMM_WORLD, options());
     for (const auto& p : graph_.points) m.insert(p.id, p.at);
+    on_first([&] { limit(m); });
     mesh(m);
     if (!arguments_.script.empty()) follow(m);
     for (const std::string& path : arguments_.outputs) write(m, path);
@@ -85,14 +90,37 @@ class Program {
     }
   }
 
+  // What the first rank announces all have.
+  void limit(mesher::MpiMesher<D>& m) const {
+    const double other = D == 2 ? arguments_.max_volume : arguments_.max_area;
+    if (other != 0) {
+      throw Error(ErrorCode::bad_option,
+                  D == 2 ? "--max-volume is for space; INPUT is in the plane"
+                         : "--max-area is for the plane; INPUT is in space",
+                  {arguments_.input});
+    }
+    mesher::SizeLimits<D> limits;
+    limits.max_measure = D == 2 ? arguments_.max_area : arguments_.max_volume;
+    if (arguments_.max_size != 0) {
+      limits.max_measure = mesher::measure_of_size<D>(arguments_.max_size);
+    }
+    if (!arguments_.sizes.empty()) {
+      limits.sizes = mesher::sampled_sizes<D>(mesher::read_sizes<D>(arguments_.sizes).samples);
+    }
+    if (limits != mesher::SizeLimits<D>()) m.limit(limits);
+  }
+
   // A bad path is found before the work begins.
   void require_outputs() const {
     for (const std::string& path : arguments_.outputs) {
       mesher::OutputFiles files;
       files.protect(arguments_.input);
+      if (!arguments_.sizes.empty()) files.protect(arguments_.sizes);
       if (!arguments_.script.empty()) files.protect(arguments_.script);
       if (mesher::format_of(path) == ".pvtu") {
         files.open(path);
+      } else if (is_in_pieces(path)) {
+        files.open(mesher::detail::msh_piece_name(path, 0));
       } else {
         static_cast<void>(mesher::open_mesh<D>(files, path));
       }
@@ -150,8 +178,13 @@ class Program {
     if (edit.kind == mesher::EditKind::insert) markers_[PointId{edit.number}] = edit.marker;
   }
 
+  bool is_in_pieces(const std::string& path) const {
+    return arguments_.pieces && mesher::format_of(path) == ".msh";
+  }
+
   void write(const mesher::MpiMesher<D>& m, const std::string& path) {
     if (mesher::format_of(path) == ".pvtu") return mesher::write_mesh(m, path);
+    if (is_in_pieces(path)) return mesher::write_pieces(m, path);
     mesher::Mesh<D> whole = m.gather();
     on_first([&] {
       mesher::WriteOptions how;
@@ -215,8 +248,23 @@ int run(int argc, char** argv, MpiPeers& peers) {
                  "The mesh: .pvtu and a .vtu file beside it for each rank; or one file, in any\n"
                  "format of 'mesher mesh', which the first rank gathers and writes")
       ->allow_extra_args(false);
+  app.add_flag("--pieces", arguments.pieces,
+               "NAME.msh is NAME_1.msh, NAME_2.msh, ..., one for each rank, as 'gmsh -part_split'\n"
+               "writes them");
   app.add_option("--script", arguments.script, "Edits that are made one batch after the other");
   app.add_option("--rho", arguments.rho, "The bound on circumradius over shortest edge");
+  CLI::Option* area =
+      app.add_option("--max-area", arguments.max_area, "No triangle is larger: see 'mesher mesh'");
+  CLI::Option* volume =
+      app.add_option("--max-volume", arguments.max_volume, "The same for tetrahedra, in space");
+  app.add_option("--max-size", arguments.max_size,
+                 "The same, as the edge of a regular triangle, or tetrahedron")
+      ->excludes(area)
+      ->excludes(volume);
+  for (const char* name : {"--max-area", "--max-volume", "--max-size"}) {
+    app.get_option(name)->check(CLI::PositiveNumber);
+  }
+  app.add_option("--sizes", arguments.sizes, "A background of such sizes, as of 'mesher mesh'");
   app.add_option("--max-vertices", arguments.max_vertices, "More are an error");
   app.add_option("--threads", arguments.threads, "Of each rank")->capture_default_str();
   app.add_flag("--stats", arguments.stats, "Print counts as a line of JSON");

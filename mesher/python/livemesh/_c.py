@@ -78,7 +78,7 @@ class Options(Structure):
                 ("region_limits", c_int32), ("no_flat", c_int32),
                 ("threads", c_int32), ("box_limits_count", c_size_t),
                 ("box_limits", c_void_p), ("growth", c_double), ("periodic_count", c_size_t),
-                ("periodic", c_void_p)]
+                ("periodic", c_void_p), ("out_of_core", c_char_p), ("tiles", c_uint64)]
 
 
 class MeshInfo(Structure):

@@ -372,7 +372,8 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
          merge: bool = True, region_limits: bool = True, no_flat: bool = True,
          extent: str = "enclosed", bounds: Any = None,
          algorithm: str = "automatic", order: int = 1,
-         max_vertices: int = 0, progress: Optional[Callable[[_c.Progress], Any]] = None,
+         max_vertices: int = 0, out_of_core: Union[None, str, "os.PathLike[str]"] = None, tiles: int = 0, threads: int = 1,
+         progress: Optional[Callable[[_c.Progress], Any]] = None,
          timeout: Optional[float] = None) -> Mesh:
     """Meshes what lines (in space polygons) enclose; if they enclose nothing, a box around it.
 
@@ -391,6 +392,10 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
     "enclosed" or "box". bounds: 2 x d, the box in which points may lie. algorithm: "automatic",
     "refine", "svr", "gap_balls". max_vertices: more are an error. order: 2 for a mesh of second
     order, see `Mesh`.
+
+    out_of_core: a folder, for more points than memory holds: points alone are meshed in tiles, that
+    many, by default one for each 10^6 points (in space 5 10^5), on so many threads. The mesh is
+    that of "gap_balls". A run that was stopped or killed goes on from what it has left there.
 
     repair: lines and polygons may cross, touch and overlap; repair_tolerance: see
     `Graph.repaired`. progress: called with a `Progress`; the run stops if it returns False.
@@ -427,6 +432,12 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
         raise ValueError("periodic sides are for the plane")
     options.periodic_count = 0 if pairs is None else len(pairs)
     options.periodic = address(pairs)
+    options.tiles = integer(tiles, "tiles", 0, 2**64 - 1)
+    options.threads = integer(threads, "threads", 1, 256)
+    if out_of_core is not None:
+        options.out_of_core = path_of(out_of_core)
+    elif tiles != 0 or threads != 1:
+        raise ValueError("tiles and threads are for out_of_core")
     if timeout is not None:
         timeout = max(deadline - time.monotonic(), 0.)
     with _c.Run(progress) as run:

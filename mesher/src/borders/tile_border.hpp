@@ -308,6 +308,10 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     const Answer& edge = engine_.arena()[it->second];
     return {edge.found(), edge.count};
   }
+  [[nodiscard]] bool has_answer(std::uint32_t id) const {
+    const auto it = answers_.find(id);
+    return it != answers_.end() && it->second != nullptr;
+  }
   /// The first fault that there is, by turn.
   [[nodiscard]] std::optional<std::pair<Turn<D>, Error>> first_fault() const {
     std::optional<std::pair<Turn<D>, std::uint32_t>> first;

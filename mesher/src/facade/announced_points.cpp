@@ -78,6 +78,18 @@ void AnnouncedPoints<D>::move(const State& state, PointId id, const Point<D>& p)
 }
 
 template <int D>
+PointEdits<D> AnnouncedPoints<D>::all(const State& state) const {
+  Pending<D> all(box_);
+  for (const GraphPoint<D>& p : state.points()) {
+    if (const Place to = place(state, p.id)) all.set(p.id, {}, to);
+  }
+  for (const auto& edit : pending_.sorted()) {
+    if (!edit.was) all.set(edit.id, {}, edit.to);
+  }
+  return all.sorted();
+}
+
+template <int D>
 void AnnouncedPoints<D>::clear() noexcept {
   pending_.clear();
   moved_ = false;

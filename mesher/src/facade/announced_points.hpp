@@ -19,7 +19,8 @@ class AnnouncedPoints {
   enum class Judged : std::uint8_t { at_once, at_the_end };
 
   /// `box` must outlive it.
-  AnnouncedPoints(const Box<D>& domain, const MeshBox<D>& box) : domain_(domain), pending_(box) {}
+  AnnouncedPoints(const Box<D>& domain, const MeshBox<D>& box)
+      : domain_(domain), box_(box), pending_(box) {}
 
   /// Throws: Error (repeated_id, outside_domain, not_finite, magnitude; at once: duplicate_point,
   /// too_close).
@@ -36,6 +37,8 @@ class AnnouncedPoints {
   [[nodiscard]] Place place(const State& state, PointId id) const;
   /// Throws: Error (duplicate_point, too_close) if a place that was not looked at is not free.
   void require_apart(const State& state) const;
+  /// The points that there shall be, as new ones.
+  [[nodiscard]] PointEdits<D> all(const State& state) const;
   [[nodiscard]] const Pending<D>& pending() const noexcept { return pending_; }
 
  private:
@@ -43,6 +46,7 @@ class AnnouncedPoints {
   void require_free(const State& state, PointId id, const Point<D>& p) const;
 
   Box<D> domain_;
+  const MeshBox<D>& box_;
   Pending<D> pending_;
   bool moved_ = false;  // a place was taken that was not looked at
 };

@@ -60,7 +60,6 @@ Staged<Key, Value> all_of(const Staged<Key, Value>& staged) {
 
 template <int D>
 struct BoxMesher<D>::Impl {
-  using Pending = detail::Pending<D>;
   using State = detail::State<D>;
 
   explicit Impl(const Options<D>& o)
@@ -82,7 +81,6 @@ struct BoxMesher<D>::Impl {
   void commit_edits() noexcept;
   void discard_edits() noexcept;
   using LastWord = typename State::Accept;
-  [[nodiscard]] detail::PointEdits<D> all_points() const;
   Change<D> run_anew(const RunControl& control, const LastWord& accept, int threads);
   Change<D> run(const RunControl& control, const LastWord& accept);
   Change<D> run_or_alone(const RunControl& control, const LastWord& accept);
@@ -173,14 +171,10 @@ void BoxMesher<D>::Impl::remove_polygon(PolygonId id) {
 
 // --- Limits ----------------------------------------------------------------------------------
 
-// Limits that make no sense are refused at once.
 template <int D>
 void BoxMesher<D>::Impl::limit(detail::AllLimits<D> limits, const std::vector<Box<D>>& where) {
   busy.require_idle();
-  Options<D> all = options;
-  detail::AllLimits<D>(limits).apply_to(all);
-  static_cast<void>(detail::Limits<D>(all, box));
-  pending_limits.set(std::move(limits), where, options);
+  pending_limits.set(std::move(limits), where, options, box);
 }
 
 template <int D>
@@ -213,19 +207,6 @@ void BoxMesher<D>::Impl::discard_edits() noexcept {
   points.clear();
 }
 
-// The points that there will be, as new ones.
-template <int D>
-detail::PointEdits<D> BoxMesher<D>::Impl::all_points() const {
-  Pending all(box);
-  for (const GraphPoint<D>& p : state->points()) {
-    if (const auto to = points.place(*state, p.id)) all.set(p.id, {}, to);
-  }
-  for (const auto& edit : points.pending().sorted()) {
-    if (!edit.was) all.set(edit.id, {}, edit.to);
-  }
-  return all.sorted();
-}
-
 // A state by another means, from the start: of all, with as many threads.
 template <int D>
 Change<D> BoxMesher<D>::Impl::run_anew(const RunControl& control, const LastWord& accept,
@@ -234,7 +215,7 @@ Change<D> BoxMesher<D>::Impl::run_anew(const RunControl& control, const LastWord
   now.threads = threads;
   const auto every_line = detail::all_of(lines);
   const auto every_polygon = detail::all_of(polygons);
-  detail::Edits<D> edits{all_points(), every_line, every_polygon};
+  detail::Edits<D> edits{points.all(*state), every_line, every_polygon};
   std::unique_ptr<detail::AnyState<D>> fresh = detail::state_for(now, edits);
   const Mesh<D> before = state->ran() ? state->mesh() : Mesh<D>();
   Change<D> change = fresh->first_run(std::move(edits), control, [&](Change<D>& c) {

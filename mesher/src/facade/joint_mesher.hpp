@@ -8,10 +8,15 @@
 // in all, or in none (peers.hpp).
 #pragma once
 
+#include <exception>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "facade/announced_points.hpp"
+#include "facade/joint_limits.hpp"
+#include "facade/joint_numbers.hpp"
+#include "facade/pending_limits.hpp"
 #include "facade/reentry_guard.hpp"
 #include "facade/tiled_state.hpp"
 #include "mesher/mesher.hpp"
@@ -42,11 +47,20 @@ class JointMesher {
   void insert(PointId id, const Point<D>& p) { announce({Kind::insert, id, p}); }
   void remove(PointId id) { announce({Kind::remove, id, {}}); }
   void move(PointId id, const Point<D>& p) { announce({Kind::move, id, p}); }
+  /// Limits of size, everywhere or in a box. Those with a function are announced by all processes
+  /// (joint_limits.hpp).
+  void limit(const SizeLimits<D>& limits) { announce({std::nullopt, limits}); }
+  void limit(const Box<D>& box, const SizeLimits<D>& limits) { announce({box, limits}); }
   /// Of this process.
-  void discard_edits() noexcept { announced_.clear(); }
+  void discard_edits() noexcept {
+    announced_.clear();
+    announced_limits_.clear();
+  }
 
   /// Of all. Makes the edits of all processes, those of the first one first; places are judged when
-  /// all are made. Throws: as Mesher::update and announcing to one; what control.progress of one
+  /// all are made. Where limits change everywhere, tiles begin anew, and parts may change hands.
+  /// What tiles refuse because of limits the first process meshes alone, to say it as one process
+  /// would. Throws: as Mesher::update and announcing to one; what control.progress of one
   /// process throws is std::runtime_error in others. The mesh is then as before in all; the edits
   /// stay announced if it is Error(cancelled), else they are discarded, in all.
   Change<D> update(const RunControl& control = {}, Told told = Told::all);
@@ -54,6 +68,8 @@ class JointMesher {
   /// The simplices of this process, each of which no other has, and their vertices. Empty before
   /// the first update.
   [[nodiscard]] Mesh<D> own_mesh() const;
+  /// Of all: those of own_mesh(), which is `own`.
+  [[nodiscard]] JointNumbers numbers(const Mesh<D>& own) const;
   /// Of all: the mesh, in process `to`; empty in others.
   [[nodiscard]] Mesh<D> gather(std::size_t to = 0) const;
   /// Of all: sums, but of seconds the most.
@@ -62,9 +78,14 @@ class JointMesher {
   /// Of all. Requires: an update.
   [[nodiscard]] JointCounts counts() const;
 
+  /// Of all: what does not fit between what tiles know of each other (TileMesher::said); empty:
+  /// nothing, and the mesh is certain to be that of one process.
+  [[nodiscard]] std::string certificate() const;
+
   /// Points of the last update.
   [[nodiscard]] std::size_t size() const noexcept { return state_->size(); }
   [[nodiscard]] std::vector<GraphPoint<D>> points() const { return state_->points(); }
+  /// With the limits of the last update.
   [[nodiscard]] const Options<D>& options() const noexcept { return options_; }
   [[nodiscard]] Peers& peers() const noexcept { return *peers_; }
   /// Requires: an update.
@@ -79,18 +100,37 @@ class JointMesher {
     Point<D> p;
   };
 
+  // Of this process, and what kind the vertices removed were, if these may be added in another.
+  struct Part {
+    Change<D> change;
+    std::vector<VertexKind> kinds_removed;
+  };
+
   void announce(const Announcement& edit);
+  void announce(AnnouncedLimits<D> limits);
   void require_equal_options();
+  void require_equal(const Packer& mine, const char* what);
   void collect(const RunControl& control);
+  void limit_all(const std::vector<AnnouncedLimits<D>>& limits);
   Change<D> run(const RunControl& control, Told told);
-  void tell(Change<D>& change, Told told) const;
+  Change<D> run_or_alone(const RunControl& control, Told told);
+  Change<D> run_anew(const RunControl& control, Told told, std::size_t tiles);
+  void refuse_alone(const RunControl& control);
+  void require_none(const std::exception_ptr& other);
+  [[nodiscard]] Part part_from_last(Change<D>& whole) const;
+  [[nodiscard]] Change<D> told_of(Part part, Told told) const;
+  static void pack(const Part& part, Packer& to);
+  static Change<D> joined(const std::vector<Bytes>& parts);
+  void clear_collected() noexcept;
 
   std::unique_ptr<Peers> peers_;
   Options<D> options_;
   MeshBox<D> box_;
   std::unique_ptr<TiledState<D>> state_;
   std::vector<Announcement> announced_;  // in this process
+  JointLimits<D> announced_limits_;      // likewise
   AnnouncedPoints<D> edits_;             // in all
+  PendingLimits<D> limits_;              // likewise
   StagedLines no_lines_;
   StagedPolygons no_polygons_;
   ReentryGuard busy_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sizes/all_limits.hpp"
+#include "sizes/limits_of.hpp"
 
 namespace mesher::detail {
 
@@ -25,8 +26,12 @@ class PendingLimits {
     return to_ ? *to_ : AllLimits<D>::of(now);
   }
   /// They shall be `to`, which differ in `where` from those announced before.
-  /// Throws: bad_alloc, and then changes nothing.
-  void set(AllLimits<D> to, const std::vector<Box<D>>& where, const Options<D>& now) {
+  /// Throws: Error(bad_option) for limits that make no sense, std::bad_alloc; then changes nothing.
+  void set(AllLimits<D> to, const std::vector<Box<D>>& where, const Options<D>& now,
+           const MeshBox<D>& box) {
+    Options<D> all = now;
+    AllLimits<D>(to).apply_to(all);
+    static_cast<void>(LimitsOf<D>(all, box));
     if (to == AllLimits<D>::of(now)) return clear();
     where_.reserve(where_.size() + where.size());
     where_.insert(where_.end(), where.begin(), where.end());

@@ -57,9 +57,10 @@ TiledState<D>::TiledState(const Options<D>& options)
       limits_(options, box_) {}
 
 template <int D>
-TiledState<D>::TiledState(const Options<D>& options, Peers& peers)
+TiledState<D>::TiledState(const Options<D>& options, Peers& peers, std::size_t tiles)
     : options_(options),
       peers_(peers),
+      tiles_wanted_(tiles),
       box_(mesh_box(options)),
       features_(box_, points_),
       limits_(options, box_) {}
@@ -126,8 +127,9 @@ auto TiledState<D>::build(const typename TiledMesher<D>::Ask& ask)
     places.reserve(ids_.size());
     points_.for_each([&](const Vertex<D>& v) { places.push_back(v.p); });
     places = places_of_work(std::move(places), limits_, box_, options_.domain);
-    tiles = std::make_unique<TiledMesher<D>>(options_, box_, places, threads * peers_.size(),
-                                             threads, peers_, WholeInput<D>{nullptr, &features_});
+    const std::size_t wanted = tiles_wanted_ != 0 ? tiles_wanted_ : threads * peers_.size();
+    tiles = std::make_unique<TiledMesher<D>>(options_, box_, places, wanted, threads, peers_,
+                                             WholeInput<D>{nullptr, &features_});
     by_tile.resize(tiles->size());
     find_levels(threads);
     points_.for_each([&](Vertex<D>& v) {
@@ -158,19 +160,16 @@ Change<D> TiledState<D>::first_run(Edits<D> edits, const RunControl& control,
   });
   in_tiles([&] { tiles_ = build(ask); }, limits_.any());
   Change<D> change;
-  together(peers_, [&] {
-    change = whole_change(mesh());
-    drop_others(change);
-  });
+  together(peers_, [&] { change = whole(); });
   set_first(stats_, change, *tiles_);
   change.calls.executed = tiles_->calls();
   if (accept) accept(change);
   return change;
 }
 
-// Vertices of other processes.
 template <int D>
-void TiledState<D>::drop_others(Change<D>& change) const {
+Change<D> TiledState<D>::whole() const {
+  Change<D> change = whole_change(mesh());
   std::size_t kept = 0;
   for (std::size_t i = 0; i < change.vertices_added.size(); ++i) {
     if (!tiles_->own_tile(change.vertices_added[i])) continue;
@@ -179,6 +178,7 @@ void TiledState<D>::drop_others(Change<D>& change) const {
   }
   change.vertices_added.resize(kept);
   change.kinds_added.resize(kept);
+  return change;
 }
 
 // --- Updates ---------------------------------------------------------------------------------

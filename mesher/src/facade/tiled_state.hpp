@@ -49,8 +49,9 @@ class TiledState final : public AnyState<D> {
 
   /// Throws: Error(bad_option).
   explicit TiledState(const Options<D>& options);
-  /// With options.threads tiles in each process. `peers` must outlive it. Throws: likewise.
-  TiledState(const Options<D>& options, Peers& peers);
+  /// With so many tiles in all processes; 0: options.threads in each. `peers` must outlive it.
+  /// Throws: likewise.
+  TiledState(const Options<D>& options, Peers& peers, std::size_t tiles = 0);
 
   /// Where there are limits of size, this and propagate() throw NotInTiles, too.
   Change<D> first_run(Edits<D> edits, const RunControl& control, const Accept& accept) override;
@@ -65,6 +66,8 @@ class TiledState final : public AnyState<D> {
   [[nodiscard]] bool ran() const noexcept override { return tiles_ != nullptr; }
   /// The simplices of this process, and their vertices.
   [[nodiscard]] Mesh<D> mesh() const override;
+  /// That of this process from nothing: its vertices and its simplices.
+  [[nodiscard]] Change<D> whole() const;
   [[nodiscard]] MeshStats stats() const override;
   [[nodiscard]] const sac::Engine& engine() const noexcept override {
     return (*tiles_)[0].engine();
@@ -99,7 +102,6 @@ class TiledState final : public AnyState<D> {
     CommonOrders<D> common;
   };
 
-  void drop_others(Change<D>& change) const;
   [[nodiscard]] std::unique_ptr<TiledMesher<D>> build(const typename TiledMesher<D>::Ask& ask);
   void find_levels(std::size_t threads);
   VertexHandle add_point(PointId id, const Point<D>& p);
@@ -110,6 +112,7 @@ class TiledState final : public AnyState<D> {
   Options<D> options_;
   Alone alone_;
   Peers& peers_;
+  std::size_t tiles_wanted_ = 0;  // 0: as many as threads
   MeshBox<D> box_;
   VertexPool<D> points_;
   FeatureTree<D> features_;

@@ -40,11 +40,11 @@ void keep_difference(std::vector<T>& come, const std::vector<T>& was, std::vecto
   std::set_difference(was.begin(), was.end(), all.begin(), all.end(), std::back_inserter(gone));
 }
 
-/// Makes of the change from nothing to a mesh that from `before`.
+/// Makes of the change from nothing to a mesh that from another, of which `was` is the change from
+/// nothing, to it.
 /// Cost: O(the size of both).
 template <int D>
-void count_from(const Mesh<D>& before, Change<D>& change) {
-  Change<D> was = whole_change(before);
+void count_from(Change<D> was, Change<D>& change) {
   const std::vector<Point<D>> vertices = std::move(change.vertices_added);
   const std::vector<VertexKind> kinds = std::move(change.kinds_added);
   change.vertices_added.clear();
@@ -74,6 +74,10 @@ void count_from(const Mesh<D>& before, Change<D>& change) {
   std::sort(change.faces_added.begin(), change.faces_added.end());
   std::sort(was.faces_added.begin(), was.faces_added.end());
   keep_difference(change.faces_added, was.faces_added, change.faces_removed);
+}
+template <int D>
+void count_from(const Mesh<D>& before, Change<D>& change) {
+  count_from(whole_change(before), change);
 }
 
 }  // namespace mesher::detail

@@ -1,4 +1,6 @@
 // Fields of sizes: functions of bounded slope, and backgrounds.
+#include "sizes/sampled_sizes.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -41,8 +43,11 @@ Point<D> nearest_in(const Box<D>& cube, Point<D> p) {
 template <int D>
 class SampledSizes final : public detail::FacetSizes<D> {
  public:
-  SampledSizes(const Box<D>& cube, std::vector<Facet<D>> facets)
-      : detail::FacetSizes<D>(std::move(facets)), cube_(cube) {}
+  SampledSizes(const Box<D>& cube, std::vector<Facet<D>> facets,
+               const std::vector<SizeSample<D>>& samples)
+      : detail::FacetSizes<D>(std::move(facets)), cube_(cube), samples_(samples) {}
+
+  [[nodiscard]] const std::vector<SizeSample<D>>& samples() const noexcept { return samples_; }
 
   [[nodiscard]] double at(const Point<D>& p) const override {
     return detail::FacetSizes<D>::at(nearest_in<D>(cube_, p));
@@ -54,6 +59,7 @@ class SampledSizes final : public detail::FacetSizes<D> {
 
  private:
   Box<D> cube_;
+  std::vector<SizeSample<D>> samples_;
 };
 
 template <int D>
@@ -152,11 +158,21 @@ std::shared_ptr<const SizeField<D>> sampled_sizes(
     for (std::size_t i = 0; i <= D; ++i) corners[i] = all[simplex[i]];
     facets.push_back(facet_of<D>(corners));
   }
-  return std::make_shared<SampledSizes<D>>(cube, std::move(facets));
+  return std::make_shared<SampledSizes<D>>(cube, std::move(facets), samples);
 }
 template std::shared_ptr<const SizeField<2>> sampled_sizes<2>(const std::vector<SizeSample<2>>&);
 #ifndef MESHER_PLANE_ONLY
 template std::shared_ptr<const SizeField<3>> sampled_sizes<3>(const std::vector<SizeSample<3>>&);
+#endif
+
+template <int D>
+const std::vector<SizeSample<D>>* detail::samples_of(const SizeField<D>& field) {
+  const auto* sampled = dynamic_cast<const SampledSizes<D>*>(&field);
+  return sampled == nullptr ? nullptr : &sampled->samples();
+}
+template const std::vector<SizeSample<2>>* detail::samples_of(const SizeField<2>&);
+#ifndef MESHER_PLANE_ONLY
+template const std::vector<SizeSample<3>>* detail::samples_of(const SizeField<3>&);
 #endif
 
 }  // namespace mesher

@@ -657,42 +657,64 @@ void TileMesher<D>::collect_changes(const Log& log, Changes& changes) const {
 
 // --- Between runs ----------------------------------------------------------------------------
 
+// Looks that are equal are one question.
 template <int D>
-bool TileMesher<D>::has_arrived(std::size_t from, const Point<D>& p, const Born& born) const {
-  const auto [first, last] = from_.equal_range(p);
-  const From same{born, static_cast<std::uint32_t>(from)};
-  return std::any_of(first, last, [&](const auto& f) { return f.second == same; });
+std::vector<KnownOf> TileMesher<D>::said() const {
+  std::vector<KnownOf> all(all_.size());
+  std::set<std::pair<std::size_t, Look<D>>> looks;
+  border_->for_each_look([&](const Look<D>& look, const Box<D>& area) {
+    all_.for_each_met(area, [&](std::size_t tile) {
+      if (tile != self_ && looks.emplace(tile, look).second) all[tile].add(look);
+    });
+  });
+  border_->for_each_birth([&](const Birth<D>& birth) {
+    all[all_.owner(birth.p)].add(birth.p, birth.turn, named(birth.role));
+  });
+  const auto& pool = world_->vertices.pool();
+  for (std::size_t tile = 0; tile < askers_.size(); ++tile) {
+    for (const auto& [h, told] : askers_[tile].told) {
+      const auto born = birth_for(static_cast<std::uint32_t>(tile), pool[h]);
+      if (born) all[tile].add(pool[h].p, born->turn, born->role);
+    }
+  }
+  return all;
+}
+
+template <int D>
+std::vector<KnownOf> TileMesher<D>::heard() const {
+  std::vector<KnownOf> all(all_.size());
+  for (std::size_t tile = 0; tile < askers_.size(); ++tile) {
+    for (const auto& [look, question] : askers_[tile].questions) all[tile].add(look);
+  }
+  for (const auto& [p, from] : from_) all[from.tile].add(p, from.born.turn, from.born.role);
+  return all;
+}
+
+template <int D>
+std::string TileMesher<D>::answers_fault(std::size_t asker) const {
+  const auto& pool = world_->vertices.pool();
+  const auto pair = [&] {
+    return " of tile " + std::to_string(self_) + " to tile " + std::to_string(asker);
+  };
+  for (const auto& [look, question] : askers_[asker].questions) {
+    if (!border_->has_answer(question)) return "an answer is missing" + pair();
+    for (const VertexHandle h : border_->answer_to(question)) {
+      if (pool[h].boundary || !border_->owns(pool[h].p)) continue;
+      const auto told = askers_[asker].told.find(h);
+      const auto born = birth_for(static_cast<std::uint32_t>(asker), pool[h]);
+      if (told == askers_[asker].told.end() || told->second != born) {
+        return "an answer was not told" + pair();
+      }
+    }
+  }
+  return {};
 }
 
 template <int D>
 std::string TileMesher<D>::fault_with(const TileMesher& other) const {
-  const auto& pool = other.world_->vertices.pool();
   const Asker& asker = other.askers_[self_];
-  std::string fault;
-  border_->for_each_look([&](const Look<D>& look, const Box<D>& area) {
-    bool meets = false;
-    all_.for_each_met(area, [&](std::size_t tile) { meets = meets || tile == other.self_; });
-    if (!meets) return;
-    const auto it = asker.questions.find(look);
-    if (it == asker.questions.end()) {
-      fault = "a look of tile " + std::to_string(self_) + " is not asked";
-      return;
-    }
-    for (const VertexHandle h : other.border_->answer_to(it->second)) {
-      if (pool[h].boundary || !other.border_->owns(pool[h].p)) continue;
-      const auto born = other.birth_for(static_cast<std::uint32_t>(self_), pool[h]);
-      if (born && !has_arrived(other.self_, pool[h].p, *born)) {
-        fault = "a vertex of tile " + std::to_string(other.self_) + " is not known to tile " +
-                std::to_string(self_);
-      }
-    }
-  });
-  border_->for_each_birth([&](const Birth<D>& birth) {
-    if (all_.owner(birth.p) == other.self_ &&
-        !other.has_arrived(self_, birth.p, {birth.turn, named(birth.role)})) {
-      fault = "a vertex that tile " + std::to_string(self_) + " has made has not arrived";
-    }
-  });
+  std::string fault = difference(said()[other.self_], other.heard()[self_], self_, other.self_);
+  if (fault.empty()) fault = other.answers_fault(self_);
   for (const auto& [cut, count] : cuts_) {
     if (asker.cuts.contains(cut)) continue;
     fault = "a leaf that tile " + std::to_string(self_) + " needs cut is not";

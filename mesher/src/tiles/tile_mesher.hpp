@@ -32,6 +32,7 @@
 #include "borders/tile_border.hpp"
 #include "borders/turn.hpp"
 #include "program/world.hpp"
+#include "tiles/known_of.hpp"
 #include "tiles/space_features.hpp"
 
 namespace mesher::detail {
@@ -222,10 +223,17 @@ class TileMesher {
   [[nodiscard]] const TileCounts& counts() const noexcept { return counts_; }
   [[nodiscard]] const sac::Engine& engine() const noexcept { return *engine_; }
   [[nodiscard]] std::size_t bytes() const;
-  /// The certificate of what this tile and another know of each other: each look of this one that
-  /// reaches the other's territory is asked there, and all that was found has arrived, at its turn;
-  /// so have births beyond the border. If that holds for all pairs, the mesh is that of one mesher
-  /// for all. Returns: what is wrong; empty: nothing. Cost: O(looks and births across borders).
+  /// The certificate of what tiles know of each other: for each pair A, B
+  ///   (1) what A has said to B, as A's state is now, B has heard, and nothing else: the looks of A
+  ///       that reach B's territory, A's births there, and the births in A of whom B was told;
+  ///   (2) B has answered each of A's looks, and has told A of all who were found.
+  /// If that holds for all pairs, the mesh is that of one mesher for all. By tile. Cost: O(looks
+  /// and births across borders).
+  [[nodiscard]] std::vector<KnownOf> said() const;
+  [[nodiscard]] std::vector<KnownOf> heard() const;
+  /// (2), of this tile's answers to another. Returns: what is wrong; empty: nothing.
+  [[nodiscard]] std::string answers_fault(std::size_t asker) const;
+  /// All of it, of what this tile has said to another, and of cuts.
   [[nodiscard]] std::string fault_with(const TileMesher& other) const;
   void check_invariants() const;
 
@@ -298,7 +306,6 @@ class TileMesher {
   void tell(Doubtful& doubtful, std::vector<Message<D>>& out);
   void forget_told(std::size_t tile, VertexHandle h);
   [[nodiscard]] std::optional<Born> birth_for(std::uint32_t asker, const Vertex<D>& v) const;
-  [[nodiscard]] bool has_arrived(std::size_t from, const Point<D>& p, const Born& born) const;
   void count_own(const std::vector<VertexHandle>& touched) noexcept;
   using Log = typename VertexIndex<sac::Scope, D>::Log;
   void collect_changes(const Log& log, Changes& changes) const;

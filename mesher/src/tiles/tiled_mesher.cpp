@@ -11,51 +11,10 @@
 #include "mesh/canonical.hpp"
 #include "program/triangulate.hpp"
 #include "program/world_impl.hpp"
+#include "tiles/message_bytes.hpp"
 #include "tiles/on_threads.hpp"
 
 namespace mesher::detail {
-
-namespace {
-
-// As many as they need: those of one kind have no other's parts.
-template <int D>
-void pack_message(std::uint32_t from, const Message<D>& m, Packer& to) {
-  using Kind = typename Message<D>::Kind;
-  const auto put_turn = [&](const Turn<D>& turn) {
-    to.put(turn.stage), to.put(turn.rank), to.put(turn.order), to.put(turn.p);
-  };
-  to.put(from), to.put(m.to), to.put(m.kind);
-  put_turn(m.turn());
-  if (m.kind == Kind::ask || m.kind == Kind::end) {
-    to.put(m.look.p), to.put(m.look.radius);
-  } else {
-    SAC_EXPECTS(m.kind < Kind::cut && m.birth.role.on == 0);  // processes have no segments
-    to.put(m.birth.p), to.put(std::int32_t{m.birth.bucket});
-  }
-}
-
-template <int D>
-std::pair<std::uint32_t, Message<D>> unpack_message(Unpacker& bytes) {
-  using Kind = typename Message<D>::Kind;
-  const auto from = bytes.take<std::uint32_t>();
-  Message<D> m{};
-  m.to = bytes.take<std::uint32_t>();
-  m.kind = bytes.take<Kind>();
-  Turn<D> turn;
-  turn.stage = bytes.take<Stage>();
-  turn.rank = bytes.take<std::uint32_t>();
-  turn.order = bytes.take<std::uint64_t>();
-  turn.p = bytes.take<Point<D>>();
-  const auto p = bytes.take<Point<D>>();
-  if (m.kind == Kind::ask || m.kind == Kind::end) {
-    m.look = {p, bytes.take<double>(), turn};
-  } else {
-    m.birth = {p, bytes.take<std::int32_t>(), turn};
-  }
-  return {from, m};
-}
-
-}  // namespace
 
 template <int D>
 TiledMesher<D>::TiledMesher(const Options<D>& options, const MeshBox<D>& box,
@@ -189,7 +148,7 @@ void TiledMesher<D>::sort_messages() {
 template <int D>
 auto TiledMesher<D>::agree_on_next() -> Next {
   constexpr std::uint64_t kNone = ~std::uint64_t{0};
-  std::array<std::uint64_t, 2> next{kNone, 1};
+  std::array<std::uint64_t, 3> next{kNone, 1, 1};
   for (const auto& waiting : waiting_) {
     if (waiting.is_empty()) continue;
     const auto [stage, bucket] = waiting.first();
@@ -197,10 +156,11 @@ auto TiledMesher<D>::agree_on_next() -> Next {
   }
   for (const auto& tile : tiles_) {
     if (tile->is_dirty()) next[1] = 0;
+    if (tile->border().has_faults()) next[2] = 0;
   }
   agree(next);
   const Time first{static_cast<Stage>(next[0] >> 32), static_cast<std::uint32_t>(next[0])};
-  return {next[0] == kNone ? std::nullopt : std::optional(first), next[1] == 0};
+  return {next[0] == kNone ? std::nullopt : std::optional(first), next[1] == 0, next[2] == 0};
 }
 
 // What a tile says until then, to whom it concerns.
@@ -212,7 +172,7 @@ void TiledMesher<D>::post(std::size_t tile, const Time& last) {
     const std::size_t process = process_of_[m.to];
     if (process == peers_.self()) return in_[from].push_back(m);
     ++exchanges_.messages_out;
-    pack_message(from, m, to_others_[process]);
+    pack(from, m, to_others_[process]);
   });
 }
 
@@ -255,13 +215,16 @@ void TiledMesher<D>::exchange(const Time& last) {
   });
 }
 
-// Several processes have no segments: nothing may come so near then.
+// What would come too near to others, in any process.
 template <int D>
 bool TiledMesher<D>::try_nearer() {
   bool any = false;
-  if (!peers_.is_alone()) return any;
-  for (const auto& tile : tiles_) any = tile->try_nearer() || any;
-  return any;
+  attempt([&] {
+    for (const auto& tile : tiles_) any = tile->try_nearer() || any;
+  });
+  std::uint64_t is_none = any ? 0 : 1;
+  agree({&is_none, 1});
+  return is_none == 0;
 }
 
 // Messages that wait are sent first.
@@ -271,7 +234,8 @@ void TiledMesher<D>::settle(Changes* changes) {
   while (true) {
     attempt([&] { sort_messages(); });
     const Next next = agree_on_next();
-    if (!next.first && !next.is_dirty && !try_nearer()) return;
+    const bool is_settled = !next.first && !next.is_dirty;
+    if (is_settled && !(next.has_faults && try_nearer())) return;
     if (next.first) exchange(*next.first);
     attempt([&] { run_dirty(changes); });
   }
@@ -621,6 +585,65 @@ std::string TiledMesher<D>::certificate_fault() const {
     }
   }
   return {};
+}
+
+// What the tiles of this process have said to those of others.
+template <int D>
+void TiledMesher<D>::pack_said(std::vector<Packer>& to) const {
+  for (std::size_t t = 0; t < tiles_.size(); ++t) {
+    const std::vector<KnownOf> said = tiles_[t]->said();
+    for (std::size_t other = 0; other < said.size(); ++other) {
+      if (own_index(other)) continue;
+      Packer& bytes = to[process_of_[other]];
+      bytes.put(std::uint64_t{first_ + t}), bytes.put(std::uint64_t{other}), bytes.put(said[other]);
+    }
+  }
+}
+
+// And what others' tiles have said, beside what those of this process have heard.
+template <int D>
+std::string TiledMesher<D>::fault_of_heard(const std::vector<Bytes>& said) const {
+  std::vector<std::vector<KnownOf>> heard;
+  for (const auto& tile : tiles_) heard.push_back(tile->heard());
+  std::size_t pairs = 0;
+  for (const Bytes& some : said) {
+    for (Unpacker rest(some); !rest.is_empty(); ++pairs) {
+      const auto from = static_cast<std::size_t>(rest.take<std::uint64_t>());
+      const auto to = static_cast<std::size_t>(rest.take<std::uint64_t>());
+      const std::size_t own = *own_index(to);
+      std::string fault = difference(rest.take<KnownOf>(), heard[own][from], from, to);
+      if (fault.empty()) fault = tiles_[own]->answers_fault(from);
+      if (!fault.empty()) return fault;
+    }
+  }
+  SAC_ENSURES(pairs == tiles_.size() * (all_.size() - tiles_.size()));
+  return {};
+}
+
+template <int D>
+std::string TiledMesher<D>::certificate() const {
+  std::string fault;
+  std::vector<Packer> said(peers_.size());
+  Peers::Views views(peers_.size());
+  together(peers_, [&] {
+    fault = certificate_fault();
+    pack_said(said);
+    for (std::size_t k = 0; k < said.size(); ++k) views[k] = said[k].bytes();
+  });
+  const std::vector<Bytes> came = peers_.exchange(views);
+  Packer mine;
+  together(peers_, [&] {
+    if (fault.empty()) fault = fault_of_heard(came);
+    mine.put_all(std::string_view(fault));
+  });
+  const std::vector<Bytes> all = peers_.gather(mine.bytes());
+  together(peers_, [&] {
+    fault.clear();
+    for (const Bytes& one : all) {
+      if (fault.empty()) fault = Unpacker(one).take_text();
+    }
+  });
+  return fault;
 }
 
 template <int D>

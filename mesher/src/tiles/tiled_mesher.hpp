@@ -130,8 +130,10 @@ class TiledMesher {
   [[nodiscard]] const TileMesher<D>& operator[](std::size_t t) const noexcept { return *tiles_[t]; }
   /// Which of them has the place; nothing: another process.
   [[nodiscard]] std::optional<std::size_t> own_tile(const Point<D>& p) const noexcept {
-    const std::size_t tile = all_.owner(p) - first_;  // huge, if it is below
-    return tile < tiles_.size() ? std::optional(tile) : std::nullopt;
+    return own_index(all_.owner(p));
+  }
+  [[nodiscard]] std::size_t process_of(const Point<D>& p) const noexcept {
+    return process_of_[all_.owner(p)];
   }
   [[nodiscard]] const Exchanges& exchanges() const noexcept { return exchanges_; }
   /// The simplices of the tiles of this process, and their vertices. `is_input(p)`: of a vertex
@@ -149,11 +151,18 @@ class TiledMesher {
   /// TileMesher::fault_with of all pairs in this process: empty if, of one process, the mesh is
   /// certain to be that of one mesher.
   [[nodiscard]] std::string certificate_fault() const;
+  /// The same of all pairs of all processes, to all. Requires: all tiles agree.
+  [[nodiscard]] std::string certificate() const;
   /// Whether an update could not be taken back: then only the end is left.
   [[nodiscard]] bool is_broken() const noexcept { return broken_; }
   void check_invariants() const;
 
  private:
+  // Of a tile of all, among those of this process.
+  [[nodiscard]] std::optional<std::size_t> own_index(std::size_t tile) const noexcept {
+    const std::size_t own = tile - first_;  // huge, if it is below
+    return own < tiles_.size() ? std::optional(own) : std::nullopt;
+  }
   template <class Act>
   void for_each_tile(std::uint64_t work, Act&& act);
   template <class Act>
@@ -168,6 +177,7 @@ class TiledMesher {
   struct Next {                 // of all processes
     std::optional<Time> first;  // of the messages that wait
     bool is_dirty;
+    bool has_faults;
   };
   [[nodiscard]] Next agree_on_next();
   void sort_messages();
@@ -181,6 +191,8 @@ class TiledMesher {
   static constexpr std::uint32_t kUnnumbered = ~std::uint32_t{0};
   struct Part;
   struct Others;
+  void pack_said(std::vector<Packer>& to) const;
+  [[nodiscard]] std::string fault_of_heard(const std::vector<Bytes>& said) const;
   void number_vertices(std::size_t t, Part& part) const;
   void list_simplices(std::size_t t, std::vector<Part>& parts, Others& others) const;
   void require_sound() const;

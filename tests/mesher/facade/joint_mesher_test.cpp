@@ -133,7 +133,7 @@ TEST_CASE("what is thrown in one process, and options that differ") {
   });
   support::in_processes(2, [&](std::unique_ptr<Peers> peers, std::size_t self) {
     auto options = support::joint_options<2>(points);
-    if (self == 1) options.max_measure = 0.5;
+    if (self == 1) options.rule = mesher::Rule::voronoi_aspect;
     support::demand(support::code_of([&] { JointMesher<2>(std::move(peers), options); }) ==
                         mesher::ErrorCode::bad_option,
                     "options of one that tiles do not have");

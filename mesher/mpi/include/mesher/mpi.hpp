@@ -58,8 +58,9 @@ class MpiMesher {
  public:
   /// Of all, with equal options. Each rank has options.threads threads, and as many tiles.
   /// Requires: MPI is initialized; for several threads with MPI_THREAD_FUNNELED.
-  /// Throws: Error(bad_option): as Mesher; for options that differ between ranks; for limits of
-  /// size, min_dihedral, record_weights, and another rule than radius_edge.
+  /// Throws: Error(bad_option): as Mesher; for options that differ between ranks (of functions of
+  /// size in what they say in a few places); for min_dihedral, record_weights, and another rule
+  /// than radius_edge.
   MpiMesher(MPI_Comm communicator, const Options<D>& options);
   MpiMesher(MpiMesher&&) noexcept;
   MpiMesher& operator=(MpiMesher&&) noexcept;
@@ -70,6 +71,13 @@ class MpiMesher {
   void insert(PointId id, const Point<D>& point);
   void remove(PointId id);
   void move(PointId id, const Point<D>& point);
+  /// Announces limits of size in place of all that there were, or in a closed box, as the functions
+  /// of a Mesher of the same names. Numbers and backgrounds (sampled_sizes) are announced on any
+  /// rank. Functions, such as SlopedSizes, cannot be sent: limits with one are announced on all
+  /// ranks, in one order and with functions that say the same; all other edits of limits announced
+  /// on a rank before one are made before it.
+  void limit(const SizeLimits<D>& limits);
+  void limit(const Box<D>& box, const SizeLimits<D>& limits);
   /// Discards the edits that this rank has announced.
   void discard_edits() noexcept;
 
@@ -78,6 +86,8 @@ class MpiMesher {
   /// the same names, and its update(); what control.progress throws, on other ranks
   /// std::runtime_error with its message. The mesh is then as before, on all ranks. The edits are
   /// discarded; after Error(cancelled) they stay.
+  /// Where limits of size change everywhere, all ranks begin anew: a change of `own` parts then has
+  /// what a rank gives to another as removed, and what it gets as added.
   Change<D> update(const RunControl& control = {}, Told told = Told::all);
 
   /// The simplices of this rank, and the vertices that they need, in canonical form. Empty before
@@ -93,14 +103,22 @@ class MpiMesher {
   /// The points of the last update, on any rank.
   [[nodiscard]] std::size_t size() const noexcept;
   [[nodiscard]] std::vector<GraphPoint<D>> points() const;
+  /// With the limits of size of the last update.
   [[nodiscard]] const Options<D>& options() const noexcept;
   [[nodiscard]] int rank() const noexcept;
   [[nodiscard]] int ranks() const noexcept;
+  /// Of all: compares what ranks have told each other with what they have heard, and with what they
+  /// know now. Returns what does not fit, on all ranks; empty: nothing, and then the mesh is
+  /// certain to be that of one process. Cost: O(vertices near borders), and 48 bytes for each two
+  /// tiles.
+  [[nodiscard]] std::string certificate() const;
   void check_invariants() const;
 
  private:
   template <int E>
   friend void write_mesh(const MpiMesher<E>&, const std::string&);
+  template <int E>
+  friend void write_pieces(const MpiMesher<E>&, const std::string&);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
@@ -111,5 +129,14 @@ class MpiMesher {
 /// Throws: Error (unknown_format, cannot_write), std::bad_alloc.
 template <int D>
 void write_mesh(const MpiMesher<D>& mesher, const std::string& path);
+
+/// Of all: writes the mesh in pieces, a file for each rank, whatever the format: .pvtu as
+/// write_mesh; for NAME.msh the files NAME_1.msh, NAME_2.msh, ..., as `gmsh -part_split` writes
+/// them (version 4.1, ASCII): the simplices of the rank in an entity of its partition, and their
+/// nodes. Numbers are those in the whole mesh, so a node of two pieces has one number. A piece is
+/// whole or not there; older ones of these names go before new ones appear. Throws: Error
+/// (unknown_format, cannot_write), std::bad_alloc.
+template <int D>
+void write_pieces(const MpiMesher<D>& mesher, const std::string& path);
 
 }  // namespace mesher

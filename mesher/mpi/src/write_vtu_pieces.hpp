@@ -13,6 +13,10 @@ namespace mesher::detail {
 /// older one goes first, so that there is never one that lists files of different meshes.
 /// Throws: Error (cannot_write, bad_option).
 template <int D>
-void write_pieces(Peers& peers, const std::function<Mesh<D>()>& own_mesh, const std::string& path);
+void write_vtu_pieces(Peers& peers, const std::function<Mesh<D>()>& own_mesh,
+                      const std::string& path);
+
+/// Removes a file that may be there. Throws: Error(cannot_write).
+void remove_old(const std::string& path);
 
 }  // namespace mesher::detail

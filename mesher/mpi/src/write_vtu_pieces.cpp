@@ -1,5 +1,5 @@
 // Files of all processes, in steps that all take together.
-#include "write_pieces.hpp"
+#include "write_vtu_pieces.hpp"
 
 #include <filesystem>
 
@@ -44,16 +44,17 @@ void write_index(const std::string& path, std::size_t processes, TextFile& file)
   file << "</PUnstructuredGrid>\n</VTKFile>\n";
 }
 
+}  // namespace
+
 void remove_old(const std::string& path) {
   std::error_code failure;
   std::filesystem::remove(path, failure);
   if (failure) throw Error(ErrorCode::cannot_write, failure.message(), {path});
 }
 
-}  // namespace
-
 template <int D>
-void write_pieces(Peers& peers, const std::function<Mesh<D>()>& own_mesh, const std::string& path) {
+void write_vtu_pieces(Peers& peers, const std::function<Mesh<D>()>& own_mesh,
+                      const std::string& path) {
   const bool is_first = peers.self() == 0;
   OutputFiles piece, index;
   together(peers, [&] {
@@ -70,7 +71,7 @@ void write_pieces(Peers& peers, const std::function<Mesh<D>()>& own_mesh, const 
   });
 }
 
-template void write_pieces<2>(Peers&, const std::function<Mesh<2>()>&, const std::string&);
-template void write_pieces<3>(Peers&, const std::function<Mesh<3>()>&, const std::string&);
+template void write_vtu_pieces<2>(Peers&, const std::function<Mesh<2>()>&, const std::string&);
+template void write_vtu_pieces<3>(Peers&, const std::function<Mesh<3>()>&, const std::string&);
 
 }  // namespace mesher::detail
