@@ -21,7 +21,7 @@ const Options<D>& tileable(const Options<D>& options) {
   const StagedLines lines;
   const StagedPolygons polygons;
   Edits<D> edits{PointEdits<D>(2), lines, polygons};
-  const bool limited = LimitsOf<D>(options, mesh_box(options)).any();
+  const bool limited = bounds_dihedrals(options) || LimitsOf<D>(options, mesh_box(options)).any();
   if (!limited && may_be_tiled(several, edits)) return options;
   throw Error(ErrorCode::bad_option,
               "on several processes there are no limits of size, no min_dihedral and no rule but "
