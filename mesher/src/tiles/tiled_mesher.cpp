@@ -29,7 +29,8 @@ void pack_message(std::uint32_t from, const Message<D>& m, Packer& to) {
   if (m.kind == Kind::ask || m.kind == Kind::end) {
     to.put(m.look.p), to.put(m.look.radius);
   } else {
-    SAC_EXPECTS(m.kind < Kind::cut && m.birth.role.on == 0);  // processes have no segments
+    // Processes have no segments, and split no slivers.
+    SAC_EXPECTS(m.kind < Kind::cut && m.birth.role.on == 0);
     to.put(m.birth.p), to.put(std::int32_t{m.birth.bucket});
   }
 }
