@@ -147,10 +147,10 @@ TEST_CASE("without slivers, on several threads every update is that of one") {
   std::uint64_t seed = 1;
   for (const PointKind kind : kFamilies) {
     const int threads = kThreads[seed % 4];
-    check_edits(kind, 20, threads, 3, seed, 6 + 3 * static_cast<double>(seed % 4));
+    check_edits(kind, 16, threads, 2, seed, 6 + 3 * static_cast<double>(seed % 4));
     ++seed;
   }
-  check_edits(PointKind::uniform, 100, 3, 2, seed, 10);
+  check_edits(PointKind::uniform, 80, 3, 1, seed, 10);
 }
 TEST_CASE("soak: without slivers, the same of more points", "[.soak][soak]") {
   std::uint64_t seed = 100;
