@@ -135,7 +135,7 @@ void check_edits(PointKind kind, std::size_t n, int threads, int steps, std::uin
   pair.check();
 }
 
-// Not `spread`: of a vertex beside far smaller ones tiles make and take back very many versions.
+// Not `spread`: to update these takes tiles long, with slivers or without (paper map (y)).
 constexpr PointKind kFamilies[] = {PointKind::uniform,    PointKind::gaussian, PointKind::clusters,
                                    PointKind::grid,       PointKind::spiral,   PointKind::sphere,
                                    PointKind::line_circle};
