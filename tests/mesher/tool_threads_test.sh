@@ -42,6 +42,14 @@ for threads in 1 3; do
 done
 same threads/limited1.node threads/limited3.node
 same threads/limited1.ele threads/limited3.ele
+printf 'move 3 .5 .25 .5\n-point 7\n+point 1001 .25 .5 .75\n' >threads/space.txt
+expect 0 '' gen uniform --n 60 --seed 4 --dimension 3 -o threads/space.node
+for threads in 1 3; do
+  expect 0 '' edit threads/space.node --domain 0 0 0 1 1 1 --min-dihedral 10 --quiet \
+    --threads $threads --script threads/space.txt -o threads/space$threads.node
+done
+same threads/space1.node threads/space3.node
+same threads/space1.ele threads/space3.ele
 expect 2 "above 0" edit threads/points.node --script threads/edits.txt --threads 0
 expect 2 "must be at most 256" edit threads/points.node --script threads/edits.txt --threads 257
 expect 2 "exclude each other" edit threads/points.node --script threads/edits.txt --threads 2 --static

@@ -375,7 +375,7 @@ typedef struct lm_options {
   int32_t region_limits; /* whether the limits of regions count */
   int32_t no_flat;       /* in space, for lm_mesh_make: whether flat tetrahedra are removed, where
                             that is possible (mesher/improve.hpp) */
-  int32_t threads;       /* of live meshes, of points alone, or with out_of_core; at most 256;
+  int32_t threads;       /* of live meshes, and with out_of_core; at most 256;
                             0: one */
   size_t box_limits_count;
   const lm_box_limits* box_limits;

@@ -135,10 +135,10 @@ struct Options {
   /// small angles; there refine and svr leave fewer than gap_balls. A Mesher keeps the bound as its
   /// mesh follows edits. For the rule radius_edge. Users of solvers ask for 10 to 12.
   std::conditional_t<D == 3, double, detail::InSpaceAlone> min_dihedral{};
-  /// Of a Mesher whose first update brings points, in the plane lines, and limits of size, but no
-  /// min_dihedral: the box is cut into as many tiles, each with a thread. The mesh is that of one
-  /// thread, to the last bit. The first update that brings anything else costs a first run; from
-  /// then on one thread does all. From 1 to 256.
+  /// Of a Mesher: the box is cut into as many tiles, each with a thread. The mesh is that of one
+  /// thread, to the last bit. The first update that brings a line or a polygon costs a first run.
+  /// Lines and polygons in space take one thread where there are limits of size or min_dihedral.
+  /// From 1 to 256.
   int threads = 1;
 };
 

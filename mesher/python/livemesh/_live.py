@@ -252,8 +252,8 @@ class LiveMesh:
     """A mesh that follows edits of its input, at the cost of the change.
 
     bounds: 2 x d, the box in which points may lie, now and later. The other options are those of
-    `mesh`. undo: how many updates can be undone. threads: as long as there are points alone, their
-    mesh is made and updated on so many threads (at most 256); it is that of one.
+    `mesh`. undo: how many updates can be undone. threads: the mesh
+    is made and updated on so many threads (at most 256); it is that of one.
 
     Edits (`add_...`, `move`, `remove_...`) are announced; `update` makes all of them, or raises,
     and none is made. Points, lines (segments and polylines), polygons, holes and regions have ids,

@@ -5,6 +5,8 @@
 //                        neighbour
 //   answer(s, id, found) the running call has looked, for another tile, who is here  (effect)
 //   request_cut(s, ...)  the running call needs a leaf cut: all tiles cut it         (effect)
+//   hand_over_slivers(s, v, ...)  the running call has slivers of v, which is beyond (effect)
+//                        the territory: who owns v splits them
 //   fault(s, error)      the running call cannot do what it should                   (effect)
 //
 // and the observations of the tile's own calls that reach beyond the territory. Between runs it is
@@ -93,19 +95,23 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
                         : call.work_queue == stars_    ? Stage::stars
                                                        : Stage::steiner;
     Turn<D> turn{stage, sac::Slot::of(call).rank, sac::Slot::of(call).order, {}};
-    const bool is_cut = turn.key(kKeyWidths).phase > 1;
-    if (stage == Stage::steiner && !is_cut) {  // Complete, or ComputeNN, of a vertex in a bucket
+    const bool is_cut = D == 2 && turn.key(kKeyWidths).phase > 1;
+    if (stage == Stage::steiner && !is_cut) {  // of a vertex in a bucket
       using Arguments = std::tuple<VertexRef<D>, int>;
       turn.p = std::get<0>(*static_cast<const Arguments*>(call.function().arguments(call)))->p;
     }
     return turn;
   }
 
-  // --- Complete of other tiles' vertices: what it has to do here
+  // --- Complete, and SplitSlivers, of other tiles' vertices: what they have to do here
 
+  struct Question {  // the cell at a place, up to where
+    Point<D> p;
+    double radius;
+  };
   struct Script {
-    using Questions = std::map<std::uint32_t, double>;  // what is looked at for others: up to where
-    using Births = std::map<Newborn<D>, int>;  // by how many messages
+    using Questions = std::map<std::uint32_t, Question>;  // what is looked at for others
+    using Births = std::map<Newborn<D>, int>;             // by how many messages
     Questions questions;
     Births births;
     sac::Ref<sac::Call> reader;
@@ -113,9 +119,10 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
   };
   // Edits, which are undone in a roll-back: what that puts back is kept, so it allocates nothing.
   // They return whether there was anything to do before.
-  bool begin_question(const Turn<D>& turn, std::uint32_t id, double radius) {
+  bool begin_question(const Turn<D>& turn, std::uint32_t id, const Point<D>& p, double radius) {
+    const Question question{p, radius};
     return edit_script(
-        turn, [=](Script& script, Kept&) { script.questions.emplace(id, radius); },
+        turn, [=](Script& script, Kept&) { script.questions.emplace(id, question); },
         [=](Script& script, Kept&) { script.questions.erase(id); });
   }
   bool end_question(const Turn<D>& turn, std::uint32_t id) {
@@ -143,7 +150,7 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     const auto it = scripts_.find(turn);
     return it != scripts_.end() && !it->second.is_empty();
   }
-  /// What the running call, Complete of a vertex of another tile, has to do.
+  /// What the running call, about a vertex of another tile, has to do.
   [[nodiscard]] const Script& read_script(sac::Scope& s) {
     static constexpr auto kAny = [](const sac::Edge&) { return true; };
     if (s.recall<sac::Edge>(id_, kScript, kAny) == nullptr) {
@@ -213,6 +220,19 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     edge.order = key.order;
     cuts_.push_back({edge.cut(), 1});
   }
+  /// SplitSlivers(v, b) is to run, at `key`.
+  void hand_over_slivers(sac::Scope& s, VertexRef<D> v, int b, const sac::Key& key) {
+    const auto same = [&](const SliversEdge& e) { return e.vertex == v->self && e.bucket == b; };
+    if (s.recall<SliversEdge>(id_, kSlivers, same) != nullptr) return;
+    make_room(slivers_, live_slivers_ + 1);
+    auto& edge = s.effect<SliversEdge>(id_, kSlivers);
+    ++live_slivers_;
+    edge.vertex = v->self;
+    edge.bucket = b;
+    edge.rank = kKeyWidths.rank(key);
+    edge.order = key.order;
+    slivers_.push_back({sliver_call(edge), 1});
+  }
   /// Errors are kept for good: there are few. `is_near`: a vertex would come too near to others; it
   /// may when nearness() is less.
   void fault(sac::Scope& s, const Error& error, bool is_near = false) {
@@ -230,9 +250,9 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     return it == nearness_.end() ? 1 : it->second;
   }
   void reset_nearness() noexcept { nearness_.clear(); }
-  /// An edit: calls that would have come too near to others are tried again, and may come nearer; no
-  /// others may, which may meet what will not be there. Returns whether there are any, and have not
-  /// been tried often enough.
+  /// An edit: calls that would have come too near to others are tried again, and may come nearer;
+  /// no others may, which may meet what will not be there. Returns whether there are any, and have
+  /// not been tried often enough.
   bool try_nearer() {
     constexpr double kStep = 0x1p-4, kLeast = 0x1p-48;
     bool any = false;
@@ -299,6 +319,11 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     int sign;
   };
   [[nodiscard]] std::vector<CutEvent> take_cuts() { return taken(cuts_); }
+  struct SliversEvent {
+    SliverCall<D> call;
+    int sign;
+  };
+  [[nodiscard]] std::vector<SliversEvent> take_slivers() { return taken(slivers_); }
   /// The questions whose answers may have changed; some more than once.
   [[nodiscard]] std::vector<std::uint32_t> take_answered() { return taken(answered_); }
   /// Who was found; nobody if the question is no more.
@@ -341,6 +366,9 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
     } else if (edge.kind == kCut) {
       cuts_.push_back({static_cast<CutEdge&>(edge).cut(), -1});
       --live_cuts_;
+    } else if (edge.kind == kSlivers) {
+      slivers_.push_back({sliver_call(static_cast<SliversEdge&>(edge)), -1});
+      --live_slivers_;
     } else {
       live_faults_.erase(static_cast<Fault&>(edge).error);
     }
@@ -352,6 +380,7 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
   static constexpr std::uint8_t kFault = 2;
   static constexpr std::uint8_t kScript = 3;
   static constexpr std::uint8_t kCut = 4;
+  static constexpr std::uint8_t kSlivers = 5;
   struct HandOver : sac::Edge {
     VertexHandle vertex;
     std::int32_t bucket;
@@ -380,6 +409,16 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
       return {piece, bucket, {Stage::steiner, rank, order, {}}};
     }
   };
+  struct SliversEdge : sac::Edge {
+    VertexHandle vertex;
+    std::int32_t bucket;
+    std::uint32_t rank;
+    std::uint64_t order;
+  };
+  [[nodiscard]] SliverCall<D> sliver_call(const SliversEdge& e) const noexcept {
+    const Point<D>& p = (*pool_)[e.vertex].p;
+    return {p, e.bucket, {Stage::steiner, e.rank, e.order, p}};
+  }
 
   struct Kept {
     bool is_done = false;
@@ -448,6 +487,8 @@ class TileBorder final : public sac::Structure, public LookListener<D> {
   std::vector<BirthEvent> births_;
   std::vector<CutEvent> cuts_;
   std::size_t live_cuts_ = 0;
+  std::vector<SliversEvent> slivers_;
+  std::size_t live_slivers_ = 0;
   std::unordered_map<std::uint32_t, sac::Ref<Answer>> answers_;
   std::vector<std::uint32_t> answered_;
   std::map<Turn<D>, Script> scripts_;

@@ -17,8 +17,8 @@ inline constexpr sac::KeyWidths kKeyWidths{.bucket = 26, .phase = 2, .colour = 4
 /// The agendas of the program, in their order.
 enum class Stage : std::uint8_t { fill, quadtree, steiner, stars };
 
-/// `p`: of ComputeNN and Complete, the place of the vertex; calls of one rank and order run in the
-/// order of these.
+/// `p`: of ComputeNN, Complete and SplitSlivers, the place of the vertex; calls of one rank and
+/// order run in the order of these.
 template <int D>
 struct Turn {
   Stage stage = Stage::quadtree;
@@ -68,6 +68,15 @@ struct CutOfLeaf {
   int bucket = 0;
   Turn<D> turn;
   friend auto operator<=>(const CutOfLeaf&, const CutOfLeaf&) = default;
+};
+
+/// The call of SplitSlivers, of the vertex at `p` in a bucket, that has this turn.
+template <int D>
+struct SliverCall {
+  Point<D> p{};
+  int bucket = 0;
+  Turn<D> turn;
+  friend auto operator<=>(const SliverCall&, const SliverCall&) = default;
 };
 
 template <int D>

@@ -25,7 +25,7 @@ const Options<D>& tileable(const Options<D>& options) {
   const StagedLines lines;
   const StagedPolygons polygons;
   const Edits<D> edits{PointEdits<D>(2), lines, polygons};
-  if (may_be_tiled(several, edits)) return options;
+  if (!bounds_dihedrals(options) && may_be_tiled(several, edits)) return options;
   throw Error(ErrorCode::bad_option,
               "on several processes there is no min_dihedral and no rule but radius-edge");
 }

@@ -17,15 +17,9 @@ namespace mesher::detail {
 namespace {
 
 template <int D>
-bool has_slivers(const Options<D>& options) {
-  if constexpr (D == 3) return options.min_dihedral != 0;
-  return false;
-}
-
-template <int D>
 bool may_have_points_tiled(const Options<D>& options, const Edits<D>& edits) {
   return options.threads > 1 && options.rule == Rule::radius_edge && edits.points.size() > 1 &&
-         !edits.polygons.has_edits() && !options.record_weights && !has_slivers(options);
+         !edits.polygons.has_edits() && !options.record_weights;
 }
 
 }  // namespace
@@ -158,7 +152,7 @@ Change<D> TiledState<D>::first_run(Edits<D> edits, const RunControl& control,
       return report(control, {phase, calls, of});
     };
   });
-  in_tiles([&] { tiles_ = build(ask); }, limits_.any());
+  in_tiles([&] { tiles_ = build(ask); }, limits_.any() || bounds_dihedrals(options_));
   Change<D> change;
   together(peers_, [&] { change = whole(); });
   set_first(stats_, change, *tiles_);
@@ -312,12 +306,13 @@ Change<D> TiledState<D>::propagate(const Edits<D>& edits, const RunControl& cont
     const Held held(features_);
     tiles_->update(by_tile, ask, last, common);
   } catch (...) {
-    const bool limited = limits_.any() || (moves.limits && moves.limits->any());
+    const bool is_theirs =
+        bounds_dihedrals(options_) || limits_.any() || (moves.limits && moves.limits->any());
     together(peers_, [&] { take_back(std::move(moves)); });
     const Held held(features_);
     tiles_->take_back(by_tile, common);
     if (tiles_->is_broken()) tiles_ = build({});  // the mesh is a function of the points
-    in_tiles([] { throw; }, limited && !is_judged);
+    in_tiles([] { throw; }, is_theirs && !is_judged);
   }
   for (const auto& node : moves.gone) points_.release(points_[node.mapped()]);
   if (moves.limits) {

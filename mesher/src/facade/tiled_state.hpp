@@ -32,6 +32,12 @@ void in_tiles(Act&& act, bool is_theirs = true) {
   }
 }
 
+/// Whether slivers are split.
+template <int D>
+[[nodiscard]] bool bounds_dihedrals(const Options<D>& options) noexcept {
+  if constexpr (D == 3) return options.min_dihedral != 0;
+  return false;
+}
 /// Whether a mesher that begins with these edits may be in tiles.
 template <int D>
 [[nodiscard]] bool may_be_tiled(const Options<D>& options, const Edits<D>& edits);
@@ -53,7 +59,7 @@ class TiledState final : public AnyState<D> {
   /// Throws: likewise.
   TiledState(const Options<D>& options, Peers& peers, std::size_t tiles = 0);
 
-  /// Where there are limits of size, this and propagate() throw NotInTiles, too.
+  /// Where there are limits of size or of angles, this and propagate() throw NotInTiles, too.
   Change<D> first_run(Edits<D> edits, const RunControl& control, const Accept& accept) override;
   /// Points, and limits of size.
   [[nodiscard]] bool takes(const Edits<D>& edits) const noexcept override;

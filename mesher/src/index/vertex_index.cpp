@@ -265,7 +265,7 @@ template <class Seen>
 CellLoan<D> VertexIndex<sac::Scope, D>::look(const Vertex<D>& v, double radius,
                                              const Observation* last, Seen&& seen) {
   CellLoan<D> cell = borrow_cell();
-  if (reads()) {
+  if (reads(v)) {
     live_->read(*cell, v, radius);
     return cell;
   }
@@ -374,9 +374,9 @@ CellLoan<D> VertexIndex<sac::Scope, D>::trial(sac::Scope& s, const Point<D>& p, 
     return o.kind == kTrial && o.call == caller && static_cast<const CellSeen&>(o).radius == clip;
   });
   const auto look_there = [&]() -> CellLoan<D> {
-    if (last != nullptr && !reads()) return look(*v, radius, last, seen);
+    if (last != nullptr && !reads(*near)) return look(*v, radius, last, seen);
     CellLoan<D> cell = borrow_cell();
-    if (reads()) {
+    if (reads(*near)) {
       live_->read_as_if(*cell, *v, near->self, radius);
       return cell;
     }

@@ -403,6 +403,8 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   }
   /// Whether cells are read from the triangulation. A first run that has failed leaves one.
   [[nodiscard]] bool reads() const noexcept { return live_ != nullptr && engine_.appending(); }
+  /// The same of v's. (A tile may be told of slivers of what is not there, or not any more.)
+  [[nodiscard]] bool reads(const Vertex<D>& v) const noexcept { return reads() && live_->has(v); }
   void join(const Vertex<D>& v);
   [[nodiscard]] Vertex<D>& record_at(sac::Scope& s, const Point<D>& p);
   const BirthOnSegmentEdge* recall_on_segment(sac::Scope& s, const Point<D>& p, const Role& role);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "program/for_another.hpp"
 #include "program/lines.hpp"
 #include "program/split_slivers.hpp"
 #include "program/staying.hpp"
@@ -72,6 +73,14 @@ struct Filled {
 /// its bucket. (It is inserted for a length l that is at most rho times shorter than these, and is
 /// rho l or more from all others.)
 inline constexpr double kNearest = 1.0 / 3;
+/// The same of Complete in this world. (Where slivers are split a vertex comes in bucket b at
+/// kRoomForSlivers of its shortest length, and is completed in the next one.)
+template <class S, int D>
+[[nodiscard]] double nearest_in(const World<S, D>& w) {
+  if constexpr (D == 3) return w.slivers.any() ? kNearest * kRoomForSlivers : kNearest;
+  return kNearest;
+}
+
 /// The vertex at `point`, which fills a gap ball of v. In a tile nothing, if that is not possible:
 /// it may be otherwise when other tiles have said what they have. Nor if others are too near, as
 /// are two versions of one vertex, in two tiles: to refine the mesh down to their distance would
@@ -86,9 +95,9 @@ std::optional<VertexRef<D>> fill_at(S& s, World<S, D>& w, CellOf<D>& gaps, const
     return x;
   };
   if (!w.is_part()) return fill();
-  double nearest = kNearest * w.buckets().shortest(b);
+  double nearest = nearest_in(w) * w.buckets().shortest(b);
   if constexpr (S::kTraced) nearest *= w.border->nearness(s);
-  const bool is_near = point.nearest2 < nearest * nearest;
+  const bool is_near = !(point.nearest2 >= nearest * nearest);  // nor if it is no number
   try {
     if (is_near) w.fail_useless(v, v);
     return fill();
@@ -133,8 +142,8 @@ Filled fill_gaps(S& s, World<S, D>& w, CellOf<D>& gaps, Staying<S, D>& stays, co
   return filled;
 }
 
-/// Calls act(). In a tile a call may meet what will not be there in the end: an error counts only if
-/// it is still there then. Returns whether there was none.
+/// Calls act(). In a tile a call may meet what will not be there in the end: an error counts only
+/// if it is still there then. Returns whether there was none.
 template <class S, int D, class Act>
 bool succeeds(S& s, World<S, D>& w, Act&& act) {
   if (!w.is_part()) return act(), true;
@@ -156,29 +165,6 @@ bool succeeds(S& s, World<S, D>& w, Act&& act) {
   }
 }
 
-/// Complete(v, b) where v is another tile's: what that has seen here is looked at again, and what
-/// it has inserted is born.
-template <int D>
-void complete_for_another(sac::Scope& s, World<sac::Scope, D>& w, VertexRef<D> v) {
-  const auto& script = w.border->read_script(s);
-  std::vector<VertexHandle> found;
-  for (const auto& [question, radius] : script.questions) {
-    w.vertices.look_across(s, v, radius, found);
-    w.border->answer(s, question, found);
-  }
-  for (const auto& [birth, count] : script.births) {
-    const VertexRef<D> x = w.vertices.claim(birth.p);
-    birth.role.on != 0 ? w.vertices.insert(s, x, birth.role) : w.vertices.insert(s, x);
-    if (birth.bucket < 0) continue;
-    if (birth.asks_nearest) {
-      w.post_nearest_in(s, x, birth.bucket);
-    } else {
-      w.post_complete(s, x, birth.bucket);
-    }
-    w.post_star(s, x);
-  }
-}
-
 // else if w is a Complete event on v: if v encroaches leaves, cut them [5.2b]; in space, add
 // vertices to features that cross v's star. Then fill v's gap balls
 template <class S, int D>
@@ -186,7 +172,7 @@ void Complete::operator()(S& s, VertexRef<D> v, int b) const {
   auto& w = s.template environment<World<S, D>>();
   if constexpr (S::kTraced && D <= 3) {
     if (!w.owns(v->p)) [[unlikely]]
-      return complete_for_another(s, w, v);
+      return run_for_another(s, w, v);
   }
   const bool is_for_tile =
       begin_for_tile(w, v, [&](const Fixed<D>& f) { return complete_key(w.buckets(), f, b); });

@@ -26,12 +26,17 @@
 #include <optional>
 #include <vector>
 
+#include "program/for_another.hpp"
 #include "program/world.hpp"
 #include "rules/sliver_rule.hpp"
 #include "space/star_crossings.hpp"
 #include "space/yielding.hpp"
 
 namespace mesher::detail {
+
+/// A vertex that splits slivers in bucket b is at least this times the bucket's shortest length
+/// from all others.
+inline constexpr double kRoomForSlivers = 1.0 / 4;
 
 struct SplitSlivers {
   static constexpr std::string_view kName = "split_slivers";
@@ -128,8 +133,7 @@ class SliverSplitter {
   }
 
  private:
-  // In units of the bucket's shortest length, squared.
-  static constexpr double kRoom2 = 1.0 / 16;
+  static constexpr double kRoom2 = kRoomForSlivers * kRoomForSlivers;
   // A place yields to features within kYields times this of the nearest vertex's distance.
   static constexpr double kBeside = 0.25;
   static constexpr double kLeast = 0x1p-30;  // that a score is better by
@@ -266,9 +270,27 @@ class SliverSplitter {
   std::vector<Place> places_;
 };
 
+/// run() for the running call of a tile. What fails while tiles do not agree may not in the end.
+template <class Run>
+void split_in_tile(sac::Scope& s, World<sac::Scope, 3>& w, Run&& run) {
+  try {
+    run();
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::too_many) throw;
+    w.border->fault(s, error);
+  }
+}
+
 template <class S>
 void SplitSlivers::operator()(S& s, VertexRef<3> v, int b) const {
-  SliverSplitter<S>(s, s.template environment<World<S, 3>>(), v, b).run();
+  auto& w = s.template environment<World<S, 3>>();
+  const auto run = [&] { SliverSplitter<S>(s, w, v, b).run(); };
+  if constexpr (S::kTraced) {
+    if (w.border != nullptr) [[unlikely]] {
+      return w.owns(v->p) ? split_in_tile(s, w, run) : run_for_another(s, w, v);
+    }
+  }
+  run();
 }
 
 }  // namespace mesher::detail

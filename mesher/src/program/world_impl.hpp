@@ -326,9 +326,13 @@ void World<S, 3>::post_fill(S& s, const FacetPiece& piece) {
 
 template <class S>
 void World<S, 3>::post_split_slivers(S& s, VertexRef<3> v, int b) {
-  if constexpr (!S::kTraced) this->plain.tick();
   const sac::Key key = split_slivers_key(this->buckets(), box.fixed(v->p), b);
-  this->steiner.template post<split_slivers>(s, key, v, b);
+  if constexpr (!S::kTraced) {
+    this->plain.tick();
+  } else if (!this->owns(v->p)) [[unlikely]] {
+    return this->border->hand_over_slivers(s, v, b, key);
+  }
+  this->steiner_at(b).template post<split_slivers>(s, key, v, b);
 }
 
 /// Whether x is so near to the cell's vertex or a neighbour of that.

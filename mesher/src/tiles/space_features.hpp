@@ -23,8 +23,7 @@ struct FeatureOrders {
            segments_come.empty() && polygons_gone.empty() && polygons_come.empty();
   }
   [[nodiscard]] FeatureOrders inverse() const {
-    return {points_come,   points_gone,   segments_come,
-            segments_gone, polygons_come, polygons_gone};
+    return {points_come, points_gone, segments_come, segments_gone, polygons_come, polygons_gone};
   }
 };
 
@@ -60,7 +59,7 @@ class SpaceFeatures {
   sac::Engine& engine_;
   const FeatureStore* whole_;
   // Names: handles of the whole input.
-  Handles own_edges_, own_polygons_;                      // by name
+  Handles own_edges_, own_polygons_;                       // by name
   std::vector<std::uint32_t> edge_names_, polygon_names_;  // by own handle
   std::vector<VertexHandle> gone_;                         // since the last commit; points
 };

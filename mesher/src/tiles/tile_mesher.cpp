@@ -23,6 +23,19 @@ auto own_features(World<sac::Scope, D>& world, sac::Engine& engine, const WholeI
   }
 }
 
+// Of those that are counted, `key` is so many more, or fewer. Returns whether it begins to be there
+// (true), or ends.
+template <class Key>
+std::optional<bool> add_to(std::map<Key, std::uint32_t>& counts, const Key& key, int more) {
+  if (more == 0) return std::nullopt;
+  std::uint32_t& count = counts[key];
+  const bool was = count != 0;
+  count = static_cast<std::uint32_t>(static_cast<int>(count) + more);
+  const bool is = count != 0;
+  if (!is) counts.erase(key);
+  return was == is ? std::nullopt : std::optional(is);
+}
+
 }  // namespace
 
 LineOrders LineOrders::inverse() const {
@@ -132,6 +145,10 @@ void TileMesher<D>::receive(std::size_t from, const std::vector<Message<D>>& mes
       case Kind::uncut:
         note_cut(who, m.cut, m.begins());
         break;
+      case Kind::split:
+      case Kind::unsplit:
+        note_split(who, m.slivers, m.begins());
+        break;
     }
   }
 }
@@ -157,8 +174,16 @@ template <int D>
 void TileMesher<D>::arrived(std::uint32_t from, const Birth<D>& birth) {
   ++(birth.bucket < 0 ? counts_.seen : counts_.born);
   from_.emplace(birth.p, From{{birth.turn, birth.role}, from});
-  orders_.push_back({Order::Kind::arrive, true, birth.p, birth.turn, birth.bucket, from, 0,
-                     birth.role, {}, birth.asks_nearest});
+  orders_.push_back({Order::Kind::arrive,
+                     true,
+                     birth.p,
+                     birth.turn,
+                     birth.bucket,
+                     from,
+                     0,
+                     birth.role,
+                     {},
+                     birth.asks_nearest});
 }
 
 template <int D>
@@ -168,8 +193,16 @@ void TileMesher<D>::departed(std::uint32_t from, const Birth<D>& birth) {
   const auto it = std::find_if(first, last, [&](const auto& f) { return f.second == same; });
   SAC_ENSURES(it != last);
   from_.erase(it);
-  orders_.push_back({Order::Kind::arrive, false, birth.p, birth.turn, birth.bucket, from, 0,
-                     birth.role, {}, birth.asks_nearest});
+  orders_.push_back({Order::Kind::arrive,
+                     false,
+                     birth.p,
+                     birth.turn,
+                     birth.bucket,
+                     from,
+                     0,
+                     birth.role,
+                     {},
+                     birth.asks_nearest});
 }
 
 template <int D>
@@ -180,6 +213,16 @@ void TileMesher<D>::note_cut(std::uint32_t from, const CutOfLeaf<D>& cut, bool b
   static_cast<void>(is_new);
   counts_.cuts += begins ? 1 : 0;
   orders_.push_back({Order::Kind::cut, begins, {}, cut.turn, cut.bucket, from, 0, {}, cut.piece});
+}
+
+template <int D>
+void TileMesher<D>::note_split(std::uint32_t from, const SliverCall<D>& slivers, bool begins) {
+  auto& all = askers_[from].slivers;
+  const bool is_new = begins ? all.insert(slivers).second : all.erase(slivers) != 0;
+  SAC_ENSURES(is_new);
+  static_cast<void>(is_new);
+  counts_.slivers += begins ? 1 : 0;
+  orders_.push_back({Order::Kind::split, begins, slivers.p, slivers.turn, slivers.bucket, from, 0});
 }
 
 // Of a feature, as all tiles call it, and as this one does.
@@ -242,13 +285,27 @@ template <int D>
 void TileMesher<D>::carry_out_cut(const Order& order) {
   if constexpr (D == 2) {
     const LeafRef leaf = world_->leaves.claim(own(order.piece));
-    sac::Agenda& at = agenda(order.turn);
-    if (order.begins) {
-      at.template post_from_outside<cut>(order.turn.key(kKeyWidths), leaf, order.number);
-    } else {
-      at.template retract_from_outside<cut>(leaf, order.number);
-    }
+    edit_call<cut>(order.turn, order.begins, leaf, order.number);
   }
+}
+
+// The call stays about the vertex's record if that is no vertex (yet).
+template <int D>
+void TileMesher<D>::carry_out_split(const Order& order) {
+  if constexpr (D == 3) {
+    const VertexRef<D> v = world_->vertices.claim(order.p);
+    hold(*v, order.begins ? 1 : -1);
+    edit_call<split_slivers>(order.turn, order.begins, v, order.number);
+  }
+}
+
+// A call more, or less, that keeps the record.
+template <int D>
+void TileMesher<D>::hold(Vertex<D>& v, int by) {
+  if (v.held == Vertex<D>::kMostHeld) return;
+  engine_->begin_edit();
+  engine_->on_rollback([&v, was = std::uint8_t{v.held}] { v.held = was & 31; });
+  v.held = static_cast<std::uint8_t>(v.held + by) & 31;
 }
 
 template <int D>
@@ -281,11 +338,13 @@ void TileMesher<D>::locate(const Order& order, VertexRef<D> v) {
 template <int D>
 void TileMesher<D>::carry_out(const Order& order) {
   if (order.kind == Order::Kind::cut) return carry_out_cut(order);
+  if (order.kind == Order::Kind::split) return carry_out_split(order);
   const VertexRef<D> v = world_->vertices.claim(order.p);
   if (order.kind == Order::Kind::locate) return locate(order, v);
   const Turn<D>& t = order.turn;
   const sac::Key key = t.key(kKeyWidths);
-  if (t.stage == Stage::steiner && key.phase == 1) return carry_out_in_complete(order, key.bucket);
+  const bool is_in_call = key.phase == 1 || (D == 3 && key.phase == 2);
+  if (t.stage == Stage::steiner && is_in_call) return carry_out_in_call(order, key);
   sac::Agenda& at = agenda(t);
   const auto stage = static_cast<std::uint32_t>(t.stage);
   if (order.role.on != 0) {
@@ -310,13 +369,13 @@ void TileMesher<D>::carry_out(const Order& order) {
 }
 
 // Calls of one key run in the order of their vertices' places, so what is Complete elsewhere is
-// Complete here.
+// Complete here, and what is SplitSlivers is that.
 template <int D>
-void TileMesher<D>::carry_out_in_complete(const Order& order, int bucket) {
+void TileMesher<D>::carry_out_in_call(const Order& order, const sac::Key& key) {
   const auto edit = [&] {
     const Turn<D>& turn = order.turn;
     if (order.kind == Order::Kind::ask) {
-      return order.begins ? border_->begin_question(turn, order.name, order.radius)
+      return order.begins ? border_->begin_question(turn, order.name, order.p, order.radius)
                           : border_->end_question(turn, order.name);
     }
     const Newborn<D> birth{order.p, order.number, own(order.role), order.asks_nearest};
@@ -326,16 +385,22 @@ void TileMesher<D>::carry_out_in_complete(const Order& order, int bucket) {
   const bool is_there = border_->has_script(order.turn);
   if (was_there == is_there) return;
   const VertexRef<D> v = world_->vertices.claim(order.turn.p);
-  Vertex<D>* const record = v.v;
-  if (v->held != Vertex<D>::kMostHeld) {
-    engine_->on_rollback([record, was = std::uint8_t{v->held}] { record->held = was & 31; });
-    v->held = static_cast<std::uint8_t>(v->held + (is_there ? 1 : -1)) & 31;
+  hold(*v, is_there ? 1 : -1);
+  if constexpr (D == 3) {
+    if (key.phase == 2) return edit_call<split_slivers>(order.turn, is_there, v, key.bucket);
   }
-  sac::Agenda& at = agenda(order.turn);
-  if (is_there) {
-    at.template post_from_outside<complete>(order.turn.key(kKeyWidths), v, bucket);
+  edit_call<complete>(order.turn, is_there, v, key.bucket);
+}
+
+// Posts a call from outside, or takes it back.
+template <int D>
+template <auto F, class... Args>
+void TileMesher<D>::edit_call(const Turn<D>& turn, bool begins, const Args&... args) {
+  sac::Agenda& at = agenda(turn);
+  if (begins) {
+    at.template post_from_outside<F>(turn.key(kKeyWidths), args...);
   } else {
-    at.template retract_from_outside<complete>(v, bucket);
+    at.template retract_from_outside<F>(args...);
   }
 }
 
@@ -447,6 +512,7 @@ std::vector<Message<D>> TileMesher<D>::collect(Changes* changes) {
   collect_looks(out, doubtful);
   collect_births(out);
   collect_cuts(out);
+  collect_slivers(out);
   collect_answers(doubtful);
   tell(doubtful, out);
   if (changes != nullptr) collect_changes(log, *changes);
@@ -529,16 +595,24 @@ void TileMesher<D>::collect_cuts(std::vector<Message<D>>& out) {
     changed[e.cut] += e.sign;
   }
   for (const auto& [cut, sum] : changed) {
-    if (sum == 0) continue;
-    std::uint32_t& count = cuts_[cut];
-    const bool was = count != 0;
-    count = static_cast<std::uint32_t>(static_cast<int>(count) + sum);
-    const bool is = count != 0;
-    if (!is) cuts_.erase(cut);
-    if (was == is) continue;
+    const auto begins = add_to(cuts_, cut, sum);
+    if (!begins) continue;
     for (std::uint32_t t = 0; t < askers_.size(); ++t) {
-      if (t != self_) out.push_back({is ? Kind::cut : Kind::uncut, t, {}, {}, cut});
+      if (t != self_) out.push_back({*begins ? Kind::cut : Kind::uncut, t, {}, {}, cut});
     }
+  }
+}
+
+template <int D>
+void TileMesher<D>::collect_slivers(std::vector<Message<D>>& out) {
+  using Kind = typename Message<D>::Kind;
+  std::map<SliverCall<D>, int> changed;
+  for (const auto& e : border_->take_slivers()) changed[e.call] += e.sign;
+  for (const auto& [call, sum] : changed) {
+    const auto begins = add_to(slivers_, call, sum);
+    if (!begins) continue;
+    const auto to = static_cast<std::uint32_t>(all_.owner(call.p));
+    out.push_back({*begins ? Kind::split : Kind::unsplit, to, {}, {}, {}, call});
   }
 }
 
@@ -722,6 +796,14 @@ std::string TileMesher<D>::fault_with(const TileMesher& other) const {
   for (const CutOfLeaf<D>& cut : asker.cuts) {
     if (cuts_.contains(cut)) continue;
     fault = "a leaf is cut that tile " + std::to_string(self_) + " does not need cut";
+  }
+  for (const auto& [call, count] : slivers_) {
+    if (all_.owner(call.p) != other.self_ || asker.slivers.contains(call)) continue;
+    fault = "slivers that tile " + std::to_string(self_) + " sees are not split";
+  }
+  for (const SliverCall<D>& call : asker.slivers) {
+    if (slivers_.contains(call)) continue;
+    fault = "slivers are split that tile " + std::to_string(self_) + " does not see";
   }
   return fault;
 }

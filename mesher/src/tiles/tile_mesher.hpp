@@ -15,6 +15,8 @@
 // it puts on them is born as any vertex is.
 // All tiles have all limits of size. Each fills its own territory: what keeps the lattice away is a
 // function of the input, of which all tiles look at the same features.
+// Slivers are those of one of their corners: whoever sees one hands the call that splits it over to
+// the tile that owns this corner.
 #pragma once
 
 #include <cstdint>
@@ -37,22 +39,24 @@
 
 namespace mesher::detail {
 
-/// From one tile to another. A question that ends, a birth and a cut that do, are named as they
-/// began.
+/// From one tile to another. A question that ends, and what else does, is named as it began.
 template <int D>
 struct Message {
-  enum class Kind : std::uint8_t { ask, end, arrive, depart, cut, uncut };
+  enum class Kind : std::uint8_t { ask, end, arrive, depart, cut, uncut, split, unsplit };
   Kind kind;
   std::uint32_t to;
-  Look<D> look{};      // ask, end
-  Birth<D> birth{};    // arrive, depart
-  CutOfLeaf<D> cut{};  // cut, uncut
+  Look<D> look{};           // ask, end
+  Birth<D> birth{};         // arrive, depart
+  CutOfLeaf<D> cut{};       // cut, uncut
+  SliverCall<D> slivers{};  // split, unsplit
 
   [[nodiscard]] const Turn<D>& turn() const noexcept {
-    return kind < Kind::arrive ? look.turn : kind < Kind::cut ? birth.turn : cut.turn;
+    if (kind < Kind::arrive) return look.turn;
+    if (kind < Kind::cut) return birth.turn;
+    return kind < Kind::split ? cut.turn : slivers.turn;
   }
   [[nodiscard]] bool begins() const noexcept {
-    return kind == Kind::ask || kind == Kind::arrive || kind == Kind::cut;
+    return kind == Kind::ask || kind == Kind::arrive || kind == Kind::cut || kind == Kind::split;
   }
 };
 
@@ -94,6 +98,7 @@ struct TileCounts {
   std::uint64_t seen = 0;       // vertices of others that came to be seen
   std::uint64_t born = 0;       // vertices of its own that others gave birth to
   std::uint64_t cuts = 0;       // of leaves that others asked for
+  std::uint64_t slivers = 0;    // calls that split its own, for which others asked
 };
 
 template <int D>
@@ -244,16 +249,16 @@ class TileMesher {
     Look<D> look;
   };
   struct Order {  // what is to be posted, or taken back
-    enum class Kind : std::uint8_t { locate, ask, arrive, cut };
+    enum class Kind : std::uint8_t { locate, ask, arrive, cut, split };
     Kind kind;
     bool begins;
     Point<D> p;
     Turn<D> turn;
-    int number;          // locate: the level; arrive, cut: the bucket
-    std::uint32_t name;  // ask: the question; arrive: from which tile
-    double radius;       // locate: the pitch
-    Role role{};         // locate, arrive
-    Piece piece{};       // cut
+    int number;                 // locate: the level; arrive, cut, split: the bucket
+    std::uint32_t name;         // ask: the question; arrive: from which tile
+    double radius;              // locate: the pitch
+    Role role{};                // locate, arrive
+    Piece piece{};              // cut
     bool asks_nearest = false;  // arrive: see Birth
   };
   struct Asked {                                                    // of another tile
@@ -271,6 +276,7 @@ class TileMesher {
     // other by what they were about to forget.
     std::unordered_map<VertexHandle, std::optional<Born>> told;
     std::set<CutOfLeaf<D>> cuts;  // that it has asked for
+    std::set<SliverCall<D>> slivers;
   };
   struct From {
     Born born;
@@ -281,11 +287,15 @@ class TileMesher {
   [[nodiscard]] sac::Agenda& agenda(const Turn<D>& turn) noexcept;
   void post_orders();
   void carry_out(const Order& order);
-  void carry_out_in_complete(const Order& order, int bucket);
+  void carry_out_in_call(const Order& order, const sac::Key& key);
   void carry_out_lines(const LineOrders& lines);
   void forget_orders() noexcept;
   [[nodiscard]] std::size_t records_in_update() const noexcept;
   void carry_out_cut(const Order& order);
+  void carry_out_split(const Order& order);
+  template <auto F, class... Args>
+  void edit_call(const Turn<D>& turn, bool begins, const Args&... args);
+  void hold(Vertex<D>& v, int by);
   void locate(const Order& order, VertexRef<D> v);
   [[nodiscard]] Role own(Role role) const;
   [[nodiscard]] bool has_features_in_space() const noexcept;
@@ -297,10 +307,12 @@ class TileMesher {
   void arrived(std::uint32_t from, const Birth<D>& birth);
   void departed(std::uint32_t from, const Birth<D>& birth);
   void note_cut(std::uint32_t from, const CutOfLeaf<D>& cut, bool begins);
+  void note_split(std::uint32_t from, const SliverCall<D>& slivers, bool begins);
   using Doubtful = std::vector<std::vector<VertexHandle>>;  // what a tile may have to be told
   void collect_looks(std::vector<Message<D>>& out, Doubtful& doubtful);
   void collect_births(std::vector<Message<D>>& out);
   void collect_cuts(std::vector<Message<D>>& out);
+  void collect_slivers(std::vector<Message<D>>& out);
   void collect_answers(Doubtful& doubtful);
   void note(std::size_t tile, VertexHandle h, Doubtful& doubtful);
   void tell(Doubtful& doubtful, std::vector<Message<D>>& out);
@@ -326,6 +338,7 @@ class TileMesher {
   TileCounts counts_;
   std::vector<Asked> asked_;                                      // by tile
   std::map<CutOfLeaf<D>, std::uint32_t> cuts_;                    // how many calls ask for each
+  std::map<SliverCall<D>, std::uint32_t> slivers_;                // likewise
   std::vector<Asker> askers_;                                     // by tile
   std::unordered_multimap<VertexHandle, std::uint32_t> told_to_;  // whose Asker::told has a vertex
   std::unordered_map<std::uint32_t, Question> questions_;

@@ -72,17 +72,19 @@ class Outbox {
     Look<D> look;
     Birth<D> birth;
     CutOfLeaf<D> cut;
+    SliverCall<D> slivers;
     friend auto operator<=>(const Key&, const Key&) = default;
   };
   static Kind opposite(Kind kind) noexcept {
     return static_cast<Kind>(static_cast<std::uint8_t>(kind) ^ 1);
   }
   static Key key(const Message<D>& m) {
-    return {m.turn(), m.to, m.begins() ? m.kind : opposite(m.kind), m.look, m.birth, m.cut};
+    return {m.turn(), m.to,     m.begins() ? m.kind : opposite(m.kind), m.look, m.birth,
+            m.cut,    m.slivers};
   }
   static Message<D> message(const std::pair<const Key, int>& waiting) {
     const auto& [k, sign] = waiting;
-    return {sign > 0 ? k.begins : opposite(k.begins), k.to, k.look, k.birth, k.cut};
+    return {sign > 0 ? k.begins : opposite(k.begins), k.to, k.look, k.birth, k.cut, k.slivers};
   }
   static Time time(const Turn<D>& turn) noexcept {
     return {turn.stage, turn.rank >> (kKeyWidths.phase + kKeyWidths.colour)};
