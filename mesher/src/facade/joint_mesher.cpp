@@ -25,7 +25,9 @@ const Options<D>& tileable(const Options<D>& options) {
   const StagedLines lines;
   const StagedPolygons polygons;
   const Edits<D> edits{PointEdits<D>(2), lines, polygons};
-  if (may_be_tiled(several, edits)) return options;
+  bool has_slivers = false;  // which threads may have in tiles, and processes not
+  if constexpr (D == 3) has_slivers = options.min_dihedral != 0;
+  if (!has_slivers && may_be_tiled(several, edits)) return options;
   throw Error(ErrorCode::bad_option,
               "on several processes there is no min_dihedral and no rule but radius-edge");
 }
