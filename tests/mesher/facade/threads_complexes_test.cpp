@@ -1,9 +1,10 @@
 // Meshers of points, lines and polygons in space on several threads: at every step the mesh, the
 // change and the errors are those of one thread, whatever happens on the way.
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cstdint>
-#include <stdexcept>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,9 +34,11 @@ using support::said;
 
 constexpr double kAcross = support::SpaceParcels<BoxMesher<3>>::kAcross;
 
-Options<3> options_for(int threads, double rho = 2, double side = kAcross) {
+constexpr mesher::Box<3> kParcels{{0, 0, 0}, {kAcross, kAcross, kAcross}};
+
+Options<3> options_for(int threads, double rho = 2, const mesher::Box<3>& domain = kParcels) {
   Options<3> options;
-  options.domain = {{0, 0, 0}, {side, side, side}};
+  options.domain = domain;
   options.rho = rho;
   options.threads = threads;
   return options;
@@ -44,8 +47,8 @@ Options<3> options_for(int threads, double rho = 2, double side = kAcross) {
 // The same edits of two meshers, one of which has several threads.
 class Pair {
  public:
-  Pair(int threads, double rho = 2, double side = kAcross)
-      : many_(options_for(threads, rho, side)), one_(options_for(1, rho, side)) {}
+  explicit Pair(int threads, double rho = 2, const mesher::Box<3>& domain = kParcels)
+      : many_(options_for(threads, rho, domain)), one_(options_for(1, rho, domain)) {}
 
   void insert(PointId id, const Point<3>& p) {
     both([&](auto& m) { m.insert(id, p); });
@@ -87,6 +90,11 @@ class Pair {
     }
   }
 
+  void remove_any_feature() {
+    if (!one_.polygons().empty()) return remove_polygon(one_.polygons().front().id);
+    if (!one_.lines().empty()) remove_line(one_.lines().front().id);
+  }
+
   // Both refuse in the same words, or both do it and are equal. Throws the error.
   void update() {
     Change<3> change, expected;
@@ -109,7 +117,8 @@ class Pair {
     REQUIRE(change.guard == expected.guard);
     REQUIRE(many_.stats().vertices == one_.stats().vertices);
     REQUIRE(many_.stats().simplices == one_.stats().simplices);
-    if (is_always_tiled && many_.size() > 1) REQUIRE(is_tiled(many_));
+    // What is refused is tried again by one thread; tiles stay where that refuses it, too.
+    if (many_.size() > 1) REQUIRE(is_tiled(many_));
     if (refused) throw *refused;
   }
   void check() const {
@@ -118,8 +127,6 @@ class Pair {
     REQUIRE(many_.lines() == one_.lines());
     REQUIRE(many_.polygons() == one_.polygons());
   }
-  bool is_always_tiled = true;
-
   BoxMesher<3>& many() { return many_; }
   BoxMesher<3>& one() { return one_; }
 
@@ -174,4 +181,119 @@ TEST_CASE("soak: with complexes, on several threads every update is that of one"
 TEST_CASE("with complexes, on several threads every update is that of one, whatever rho is") {
   std::uint64_t seed = 100;
   for (const double rho : {1.25, 1.42, 3.0, 10.0}) check_edits(seed++, 3, 6, rho);
+}
+
+TEST_CASE("families of complexes, on several threads") {
+  struct Family {
+    const char* name;
+    double parameter;
+  };
+  for (const Family& family : {Family{"cube", 0},
+                               {"cubepoly", 0},
+                               {"dumbbell", 0},
+                               {"lhole", 0},
+                               {"plates", 0.05},
+                               {"wedge", 20},
+                               {"fan", 12},
+                               {"segfac", 20}}) {
+    for (const bool is_turned : {false, true}) {
+      CAPTURE(family.name, is_turned);
+      support::Complex complex = support::complex_of(family.name, family.parameter);
+      if (is_turned) complex = support::turned(complex);
+      mesher::Box<3> box{complex.points[0], complex.points[0]};
+      for (const Point<3>& p : complex.points) {
+        for (std::size_t i = 0; i < 3; ++i) {
+          box.lo[i] = std::min(box.lo[i], p[i]), box.hi[i] = std::max(box.hi[i], p[i]);
+        }
+      }
+      Pair pair(3, 2, box);
+      pair.insert(complex, 1);
+      pair.update();
+      pair.check();
+      pair.remove_any_feature();
+      pair.update();
+      pair.check();
+    }
+  }
+}
+
+TEST_CASE("lines and polygons come to points on several threads, and all go again") {
+  for (const int threads : {2, 5}) {
+    Pair pair(threads);
+    support::SpaceParcels<Pair> parcels(pair, 9);
+    for (int i = 1; i <= 40; ++i) {
+      const double x = 0.05 + 0.045 * i;
+      pair.insert(PointId{1000 + i}, {x, 0.011 * i, 1.9 - 0.03 * i});
+    }
+    pair.update();
+    REQUIRE(parcels.edit_and(6, [&] { pair.update(); }));
+    pair.check();
+    for (const auto& polygon : pair.one().polygons()) pair.remove_polygon(polygon.id);
+    for (const auto& line : pair.one().lines()) pair.remove_line(line.id);
+    pair.update();
+    pair.check();
+    for (const auto& p : pair.one().points()) pair.remove(p.id);
+    pair.update();
+    pair.check();
+  }
+}
+
+namespace {
+
+// A polygon goes, a corner moves, a segment comes, in two tiles.
+struct ComplexWorld {
+  BoxMesher<3> m{options_for(2, 2, {{0, 0, 0}, {1, 1, 1}})};
+  Mesh<3> before;
+  ComplexWorld() {
+    const double corners[4][3] = {
+        {0.2, 0.2, 0.2}, {0.8, 0.3, 0.2}, {0.4, 0.8, 0.3}, {0.5, 0.5, 0.9}};
+    for (int i = 0; i < 4; ++i) {
+      m.insert(PointId{i + 1}, {corners[i][0], corners[i][1], corners[i][2]});
+    }
+    int id = 1;
+    for (const auto& face : {std::array{1, 2, 3}, std::array{1, 2, 4}, std::array{2, 3, 4}}) {
+      m.insert_polygon({PolygonId{id++}, {{PointId{face[0]}, PointId{face[1]}, PointId{face[2]}}}});
+    }
+    m.update();
+    before = m.mesh();
+  }
+  void announce() {
+    m.remove_polygon(PolygonId{1});
+    m.move(PointId{4}, {0.52, 0.5, 0.88});
+    m.insert(PointId{5}, {0.1, 0.9, 0.1}), m.insert(PointId{6}, {0.9, 0.9, 0.2});
+    m.insert_segment(LineId{1}, PointId{5}, PointId{6});
+  }
+};
+
+}  // namespace
+
+TEST_CASE("with complexes, on several threads an update in which an allocation fails leaves them") {
+  support::check_failing_updates<ComplexWorld>(support::SeeMesh{}, 41);
+}
+TEST_CASE("soak: with complexes, the same for every allocation", "[.soak][soak]") {
+  support::check_failing_updates<ComplexWorld>();
+}
+
+TEST_CASE("with complexes, an update on several threads that is stopped, anywhere, is taken back") {
+  Pair pair(3);
+  support::SpaceParcels<Pair> parcels(pair, 3);
+  REQUIRE(parcels.edit_and(6, [&] { pair.update(); }));
+  BoxMesher<3>& m = pair.many();
+  const Mesh<3> before = m.mesh();
+  const auto announce = [&] {
+    m.remove_polygon(m.polygons().front().id);
+    m.insert(PointId{5000}, {0.31, 1.7, 1.2}), m.insert(PointId{5001}, {1.62, 0.4, 0.7});
+  };
+  bool is_done = false;
+  int stopped = 0;
+  for (int after = 1; !is_done; after = after * 2 + 1) {
+    int calls = 0;
+    RunControl control;
+    control.progress = [&](const Progress&) { return ++calls < after; };
+    announce();
+    is_done = !support::is_stopped(m, control, before);
+    stopped += !is_done;
+  }
+  m.check_invariants();
+  CHECK(is_tiled(m));
 }
