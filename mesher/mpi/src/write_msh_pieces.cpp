@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/box.hpp"
 #include "mesher/write.hpp"
 #include "write_vtu_pieces.hpp"
 
@@ -39,22 +40,10 @@ class MshPiece {
     write_box(extent_);
     file_ << " 0 0\n$EndEntities\n$PartitionedEntities\n" << size_ << "\n0\n" << kCounts;
     file_ << self_ + 2 << ' ' << D << " 1 1 " << self_ + 1 << ' ';
-    write_box(box_of(own_));
+    write_box(bounding_box<D>(own_.vertices));
     file_ << " 0 0\n$EndPartitionedEntities\n";
     write_nodes();
     write_elements();
-  }
-
-  static Box<D> box_of(const Mesh<D>& mesh) {
-    if (mesh.vertices.empty()) return {};
-    Box<D> box{mesh.vertices.front(), mesh.vertices.front()};
-    for (const Point<D>& p : mesh.vertices) {
-      for (std::size_t i = 0; i < D; ++i) {
-        box.lo[i] = std::min(box.lo[i], p[i]);
-        box.hi[i] = std::max(box.hi[i], p[i]);
-      }
-    }
-    return box;
   }
 
  private:
@@ -114,7 +103,7 @@ Box<D> joint_extent(Peers& peers, const Mesh<D>& own) {
   Packer mine;
   together(peers, [&] {
     mine.put(std::uint8_t{!own.vertices.empty()});
-    mine.put(MshPiece<D>::box_of(own));
+    mine.put(bounding_box<D>(own.vertices));
   });
   std::optional<Box<D>> all;
   for (const Bytes& bytes : peers.gather(mine.bytes())) {
@@ -122,10 +111,7 @@ Box<D> joint_extent(Peers& peers, const Mesh<D>& own) {
     if (one.take<std::uint8_t>() == 0) continue;
     const auto box = one.take<Box<D>>();
     if (!all) all = box;
-    for (std::size_t i = 0; i < D; ++i) {
-      all->lo[i] = std::min(all->lo[i], box.lo[i]);
-      all->hi[i] = std::max(all->hi[i], box.hi[i]);
-    }
+    grow(*all, box.lo), grow(*all, box.hi);
   }
   return all.value_or(Box<D>());
 }

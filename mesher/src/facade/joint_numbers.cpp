@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "sets/make_set.hpp"
+
 namespace mesher::detail {
 
 namespace {
@@ -54,8 +56,7 @@ class JointCount {
       wanted_[k] = Unpacker(questions[k]).template take_all<Point<D>>();
       vertices_.insert(vertices_.end(), wanted_[k].begin(), wanted_[k].end());
     }
-    std::sort(vertices_.begin(), vertices_.end());
-    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+    make_set(vertices_);
     sizes_.put(std::uint64_t{vertices_.size()});
     sizes_.put(std::uint64_t{own_.simplices.size()});
   }

@@ -13,7 +13,6 @@
 #include "program/world_impl.hpp"
 #include "sets/report_difference.hpp"
 #include "sizes/fill_places.hpp"
-#include "tiles/on_threads.hpp"
 
 namespace mesher::detail {
 
@@ -45,16 +44,6 @@ TiledPlaneState::TiledPlaneState(const Options<2>& options)
 std::optional<TileMesher<2>::Located> TiledPlaneState::located(const Vertex<2>& v) const {
   if (v.boundary || !world_->features.has(v)) return std::nullopt;
   return Located(v.level, world_->limits.pitch(v.p), v.feature ? Role() : vertices().role(v));
-}
-
-// Of all points, by parts of the pool.
-void TiledPlaneState::find_levels(std::size_t threads) {
-  on_threads(threads, [&](std::size_t part) {
-    FeatureTree<2>::Path path;
-    vertices().pool().for_each_in(part, threads, [&](Vertex<2>& v) {
-      if (!v.boundary && world_->features.has(v)) world_->features.find_level(v, path);
-    });
-  });
 }
 
 // Of all that is there.
@@ -151,7 +140,7 @@ Change<2> TiledPlaneState::first_run(Edits<2> edits, const RunControl& control,
     world_->features.require_apart();
   });
   commit();
-  find_levels(static_cast<std::size_t>(options_.threads));
+  find_levels(*world_, options_.threads);
   const Tiles::Ask ask = [&, points = ids_.size()](Phase phase, std::uint64_t calls) {
     const std::uint64_t of = phase == Phase::quadtree ? std::max<std::uint64_t>(points, calls) : 0;
     return detail::report(control, {phase, calls, of});

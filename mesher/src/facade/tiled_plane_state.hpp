@@ -52,7 +52,6 @@ class TiledPlaneState final : public PlaneState {
     std::vector<std::pair<SegmentHandle, std::optional<Zones>>> zones;
   };
 
-  void find_levels(std::size_t threads);
   [[nodiscard]] std::unique_ptr<Tiles> build(const Tiles::Ask& ask);
   [[nodiscard]] std::optional<Located> located(const Vertex<2>& v) const;
   void find_news(const Edits<2>& edits, News& news);

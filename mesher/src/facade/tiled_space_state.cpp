@@ -9,7 +9,6 @@
 #include "program/world_impl.hpp"
 #include "sets/make_set.hpp"
 #include "sizes/fill_places.hpp"
-#include "tiles/on_threads.hpp"
 
 namespace mesher::detail {
 
@@ -25,10 +24,7 @@ inline constexpr FillAll fill_all{};
 }  // namespace
 
 bool may_have_complexes_tiled(const Options<3>& options, const Edits<3>& edits) {
-  const bool limited = options.max_measure != 0 || options.sizes != nullptr ||
-                       !options.box_limits.empty() || options.region_limits != nullptr;
-  return options.threads > 1 && options.rule == Rule::radius_edge && edits.points.size() > 1 &&
-         !limited && options.min_dihedral == 0 && !options.record_weights;
+  return may_have_tiles(options, edits) && !has_limits(options) && !bounds_dihedrals(options);
 }
 
 TiledSpaceState::TiledSpaceState(const Options<3>& options)
@@ -42,17 +38,6 @@ auto TiledSpaceState::now(const Vertex<3>& v) const -> Told {
   if (v.boundary || !world_->features.has(v)) return {};
   const Role role = v.feature ? Role() : vertices().role(v);
   return {Located(v.level, Limits<3>::kNone, role), v.feature};
-}
-
-// Of all points, by parts of the pool.
-void TiledSpaceState::find_levels() {
-  const auto threads = static_cast<std::size_t>(options_.threads);
-  on_threads(threads, [&](std::size_t part) {
-    FeatureTree<3>::Path path;
-    pool().for_each_in(part, threads, [&](Vertex<3>& v) {
-      if (!v.boundary && world_->features.has(v)) world_->features.find_level(v, path);
-    });
-  });
 }
 
 // Of all that is there.
@@ -150,7 +135,7 @@ Change<3> TiledSpaceState::first_run(Edits<3> edits, const RunControl& control,
     world_->features.require_apart();
   });
   commit();
-  find_levels();
+  find_levels(*world_, options_.threads);
   const Tiles::Ask ask = [&, points = ids_.size()](Phase phase, std::uint64_t calls) {
     const std::uint64_t of = phase == Phase::quadtree ? std::max<std::uint64_t>(points, calls) : 0;
     return detail::report(control, {phase, calls, of});

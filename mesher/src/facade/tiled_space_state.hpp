@@ -51,7 +51,6 @@ class TiledSpaceState final : public SpaceState {
     std::vector<std::pair<VertexHandle, Told>> told;  // as it was before
   };
 
-  void find_levels();
   [[nodiscard]] std::unique_ptr<Tiles> build(const Tiles::Ask& ask);
   [[nodiscard]] Told now(const Vertex<3>& v) const;
   void find_news(News& news);

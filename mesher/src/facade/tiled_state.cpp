@@ -18,8 +18,7 @@ namespace {
 
 template <int D>
 bool may_have_points_tiled(const Options<D>& options, const Edits<D>& edits) {
-  return options.threads > 1 && options.rule == Rule::radius_edge && edits.points.size() > 1 &&
-         !edits.polygons.has_edits() && !options.record_weights;
+  return may_have_tiles(options, edits) && !edits.polygons.has_edits();
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 
 #include "facade/any_state.hpp"
 #include "index/feature_tree.hpp"
+#include "tiles/on_threads.hpp"
 #include "tiles/tiled_mesher.hpp"
 
 namespace mesher::detail {
@@ -37,6 +38,23 @@ template <int D>
 [[nodiscard]] bool bounds_dihedrals(const Options<D>& options) noexcept {
   if constexpr (D == 3) return options.min_dihedral != 0;
   return false;
+}
+/// Whether a mesher with these options, that begins with these edits, can have tiles at all.
+template <int D>
+[[nodiscard]] bool may_have_tiles(const Options<D>& options, const Edits<D>& edits) noexcept {
+  return options.threads > 1 && options.rule == Rule::radius_edge && edits.points.size() > 1 &&
+         !options.record_weights;
+}
+/// Finds how crowded each vertex of before refinement is, by parts of the pool, on so many threads.
+template <int D>
+void find_levels(World<sac::Scope, D>& world, int threads) {
+  const auto parts = static_cast<std::size_t>(threads);
+  on_threads(parts, [&](std::size_t part) {
+    typename FeatureTree<D>::Path path;
+    world.vertices.pool().for_each_in(part, parts, [&](Vertex<D>& v) {
+      if (!v.boundary && world.features.has(v)) world.features.find_level(v, path);
+    });
+  });
 }
 /// Whether a mesher that begins with these edits may be in tiles.
 template <int D>

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "program/faults.hpp"
 #include "program/for_another.hpp"
 #include "program/lines.hpp"
 #include "program/split_slivers.hpp"
@@ -98,17 +99,15 @@ std::optional<VertexRef<D>> fill_at(S& s, World<S, D>& w, CellOf<D>& gaps, const
   double nearest = nearest_in(w) * w.buckets().shortest(b);
   if constexpr (S::kTraced) nearest *= w.border->nearness(s);
   const bool is_near = !(point.nearest2 >= nearest * nearest);  // nor if it is no number
-  try {
-    if (is_near) w.fail_useless(v, v);
-    return fill();
-  } catch (const Error& error) {
-    if constexpr (S::kTraced) {
-      w.border->fault(s, error, is_near);
-    } else {
-      w.halo->fault(error);
-    }
-    return std::nullopt;
-  }
+  std::optional<VertexRef<D>> x;
+  succeeds(
+      s, w,
+      [&] {
+        if (is_near) w.fail_useless(v, v);
+        x = fill();
+      },
+      is_near);
+  return x;
 }
 
 // While there is a gap ball b = B(x, r) to fill: if x is in the balls of leaves, cut them instead
@@ -140,29 +139,6 @@ Filled fill_gaps(S& s, World<S, D>& w, CellOf<D>& gaps, Staying<S, D>& stays, co
     w.post_star(s, *x);
   }
   return filled;
-}
-
-/// Calls act(). In a tile a call may meet what will not be there in the end: an error counts only
-/// if it is still there then. Returns whether there was none.
-template <class S, int D, class Act>
-bool succeeds(S& s, World<S, D>& w, Act&& act) {
-  if (!w.is_part()) return act(), true;
-  const auto fault = [&](const Error& error, [[maybe_unused]] bool is_near) {
-    if constexpr (S::kTraced) {
-      w.border->fault(s, error, is_near);
-    } else {
-      w.halo->fault(error);
-    }
-    return false;
-  };
-  try {
-    act();
-    return true;
-  } catch (const Error& error) {
-    return fault(error, false);
-  } catch (const TooNear&) {
-    return fault({ErrorCode::too_close, "a new vertex would be too near to others"}, true);
-  }
 }
 
 // else if w is a Complete event on v: if v encroaches leaves, cut them [5.2b]; in space, add

@@ -26,6 +26,7 @@
 #include <optional>
 #include <vector>
 
+#include "program/faults.hpp"
 #include "program/for_another.hpp"
 #include "program/world.hpp"
 #include "rules/sliver_rule.hpp"
@@ -270,27 +271,14 @@ class SliverSplitter {
   std::vector<Place> places_;
 };
 
-/// run() for the running call of a tile. What fails while tiles do not agree may not in the end.
-template <class Run>
-void split_in_tile(sac::Scope& s, World<sac::Scope, 3>& w, Run&& run) {
-  try {
-    run();
-  } catch (const Error& error) {
-    if (error.code() == ErrorCode::too_many) throw;
-    w.border->fault(s, error);
-  }
-}
-
 template <class S>
 void SplitSlivers::operator()(S& s, VertexRef<3> v, int b) const {
   auto& w = s.template environment<World<S, 3>>();
-  const auto run = [&] { SliverSplitter<S>(s, w, v, b).run(); };
   if constexpr (S::kTraced) {
-    if (w.border != nullptr) [[unlikely]] {
-      return w.owns(v->p) ? split_in_tile(s, w, run) : run_for_another(s, w, v);
-    }
+    if (!w.owns(v->p)) [[unlikely]]
+      return run_for_another(s, w, v);
   }
-  run();
+  succeeds(s, w, [&] { SliverSplitter<S>(s, w, v, b).run(); });
 }
 
 }  // namespace mesher::detail

@@ -10,14 +10,19 @@
 
 namespace mesher::detail {
 
+/// Whether the options ask for limits of size.
+template <int D>
+[[nodiscard]] bool has_limits(const Options<D>& options) noexcept {
+  return options.max_measure != 0 || options.sizes != nullptr || !options.box_limits.empty() ||
+         options.region_limits != nullptr;
+}
+
 template <int D>
 class NoLimits {
  public:
   /// Throws: Error(bad_option) if the options ask for some.
   NoLimits(const Options<D>& options, const MeshBox<D>&) {
-    const bool none = options.max_measure == 0 && options.sizes == nullptr &&
-                      options.box_limits.empty() && options.region_limits == nullptr;
-    if (!none) {
+    if (has_limits(options)) {
       throw Error(ErrorCode::bad_option, "limits of size are for the plane and for space");
     }
   }

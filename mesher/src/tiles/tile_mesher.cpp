@@ -171,19 +171,17 @@ void TileMesher<D>::end(std::uint32_t from, const Look<D>& look) {
 }
 
 template <int D>
+void TileMesher<D>::order_arrival(std::uint32_t from, const Birth<D>& birth, bool begins) {
+  Order order{Order::Kind::arrive, begins, birth.p, birth.turn, birth.bucket, from, 0, birth.role};
+  order.asks_nearest = birth.asks_nearest;
+  orders_.push_back(order);
+}
+
+template <int D>
 void TileMesher<D>::arrived(std::uint32_t from, const Birth<D>& birth) {
   ++(birth.bucket < 0 ? counts_.seen : counts_.born);
   from_.emplace(birth.p, From{{birth.turn, birth.role}, from});
-  orders_.push_back({Order::Kind::arrive,
-                     true,
-                     birth.p,
-                     birth.turn,
-                     birth.bucket,
-                     from,
-                     0,
-                     birth.role,
-                     {},
-                     birth.asks_nearest});
+  order_arrival(from, birth, true);
 }
 
 template <int D>
@@ -193,16 +191,7 @@ void TileMesher<D>::departed(std::uint32_t from, const Birth<D>& birth) {
   const auto it = std::find_if(first, last, [&](const auto& f) { return f.second == same; });
   SAC_ENSURES(it != last);
   from_.erase(it);
-  orders_.push_back({Order::Kind::arrive,
-                     false,
-                     birth.p,
-                     birth.turn,
-                     birth.bucket,
-                     from,
-                     0,
-                     birth.role,
-                     {},
-                     birth.asks_nearest});
+  order_arrival(from, birth, false);
 }
 
 template <int D>

@@ -305,6 +305,7 @@ class TileMesher {
   void ask(std::uint32_t from, const Look<D>& look);
   void end(std::uint32_t from, const Look<D>& look);
   void arrived(std::uint32_t from, const Birth<D>& birth);
+  void order_arrival(std::uint32_t from, const Birth<D>& birth, bool begins);
   void departed(std::uint32_t from, const Birth<D>& birth);
   void note_cut(std::uint32_t from, const CutOfLeaf<D>& cut, bool begins);
   void note_split(std::uint32_t from, const SliverCall<D>& slivers, bool begins);
