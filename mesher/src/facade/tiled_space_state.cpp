@@ -15,20 +15,21 @@ namespace mesher::detail {
 namespace {
 
 // All that is run here.
-struct FillAll {
-  static constexpr std::string_view kName = "fill_all";
-  void operator()(sac::Scope& s) const { s.environment<World<sac::Scope, 3>>().fills.drain(s); }
+struct DrainFeatures {
+  static constexpr std::string_view kName = "features";
+  void operator()(sac::Scope& s) const { drain_lines(s, s.environment<World<sac::Scope, 3>>()); }
 };
-inline constexpr FillAll fill_all{};
+inline constexpr DrainFeatures drain_features{};
 
 }  // namespace
 
 bool may_have_complexes_tiled(const Options<3>& options, const Edits<3>& edits) {
-  return may_have_tiles(options, edits) && !has_limits(options) && !bounds_dihedrals(options);
+  return may_have_tiles(options, edits);
 }
 
 TiledSpaceState::TiledSpaceState(const Options<3>& options)
     : SpaceState(options), options_(options) {
+  if (world_->limits.any()) retract_cells(*world_);
   world_->locates = false;
 }
 
@@ -37,7 +38,7 @@ TiledSpaceState::TiledSpaceState(const Options<3>& options)
 auto TiledSpaceState::now(const Vertex<3>& v) const -> Told {
   if (v.boundary || !world_->features.has(v)) return {};
   const Role role = v.feature ? Role() : vertices().role(v);
-  return {Located(v.level, Limits<3>::kNone, role), v.feature};
+  return {Located(v.level, world_->limits.pitch(v.p), role), v.feature};
 }
 
 // Of all that is there.
@@ -70,8 +71,12 @@ auto TiledSpaceState::build(const Tiles::Ask& ask) -> std::unique_ptr<Tiles> {
 }
 
 // What an update has changed, before it is committed here.
-void TiledSpaceState::find_news(News& news) {
+void TiledSpaceState::find_news(const Edits<3>& edits, News& news) {
   news.by_tile.resize(tiles_->size());
+  if (edits.limits) {
+    const auto& [is, where] = *edits.limits;
+    news.common.limits = CommonOrders<3>::LimitsChange{options_, is, where};
+  }
   FeatureOrders& orders = news.common.features_in_space;
   if (told_.size() < pool().end_of_handles()) told_.resize(pool().end_of_handles());
   for (const VertexHandle h : vertices().touched()) {
@@ -131,7 +136,7 @@ Change<3> TiledSpaceState::first_run(Edits<3> edits, const RunControl& control,
   for (const auto& edit : edits.points) add_first(edit);
   add_features_first(edits);
   in_tiles([&] {
-    engine_->run<fill_all>();
+    engine_->run<drain_features>();
     world_->features.require_apart();
   });
   commit();
@@ -158,9 +163,9 @@ Change<3> TiledSpaceState::first_run(Edits<3> edits, const RunControl& control,
 
 Change<3> TiledSpaceState::propagate(const Edits<3>& edits, const RunControl& control,
                                      const Accept& accept) {
-  SAC_EXPECTS(takes(edits));
   Change<3> change;
   News news;
+  Options<3> options = edits.limits ? edits.limits->options : options_;
   std::shared_ptr<const CommonOrders<3>> common;
   bool is_judged = false;  // what is thrown then is the caller's
   const std::uint64_t before = tiles_->calls();
@@ -186,7 +191,7 @@ Change<3> TiledSpaceState::propagate(const Edits<3>& edits, const RunControl& co
     world_->features.require_apart();
     make_room();
     prepare_names();
-    find_news(news);
+    find_news(edits, news);
     if (!news.common.is_empty()) {
       common = std::make_shared<const CommonOrders<3>>(std::move(news.common));
     }
@@ -209,6 +214,7 @@ Change<3> TiledSpaceState::propagate(const Edits<3>& edits, const RunControl& co
     if (gives_up) throw NotInTilesYet();
     in_tiles([] { throw; }, !is_judged);
   }
+  options_ = std::move(options);
   end_update(edits.points, change);
   return change;
 }

@@ -25,8 +25,9 @@ class TiledSpaceState final : public SpaceState {
   /// Throws NotInTilesYet, too.
   Change<3> propagate(const Edits<3>& edits, const RunControl& control,
                       const Accept& accept) override;
-  /// Points, lines and polygons.
-  [[nodiscard]] bool takes(const Edits<3>& edits) const noexcept override { return !edits.limits; }
+  [[nodiscard]] bool is_sooner_anew(const Edits<3>& edits) const noexcept override {
+    return changes_all_limits(edits);
+  }
 
   [[nodiscard]] MeshStats stats() const override;
   [[nodiscard]] const sac::Engine& engine() const noexcept override {
@@ -53,7 +54,7 @@ class TiledSpaceState final : public SpaceState {
 
   [[nodiscard]] std::unique_ptr<Tiles> build(const Tiles::Ask& ask);
   [[nodiscard]] Told now(const Vertex<3>& v) const;
-  void find_news(News& news);
+  void find_news(const Edits<3>& edits, News& news);
   void take_back(const News& news) noexcept;
   void set_vertex(const Point<3>& p);
   void set_touched() noexcept;

@@ -8,6 +8,7 @@ namespace mesher::detail {
 template <int D>
 void Observers<D>::link(Observation& o) noexcept {
   Vertex<D>& v = pool_[o.center];
+  ++live_;
   o.arrivals = 0;
   o.next = v.queries;
   v.queries = engine_.arena().handle_of(&o);
@@ -19,6 +20,7 @@ void Observers<D>::link(Observation& o) noexcept {
 template <int D>
 void Observers<D>::unlink(Observation& o) noexcept {
   Vertex<D>& v = pool_[o.center];
+  --live_;
   const sac::Handle self = engine_.arena().handle_of(&o);
   sac::Handle* link = &v.queries;
   while (*link != self) link = &at(*link).next;

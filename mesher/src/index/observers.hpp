@@ -79,6 +79,8 @@ class Observers {
   /// Lists an observation whose centre, call and reach are set.
   void link(Observation& o) noexcept;
   void unlink(Observation& o) noexcept;
+  /// Whether any is listed.
+  [[nodiscard]] bool any() const noexcept { return live_ != 0; }
 
   /// Calls visit(observation) for those centred at v, the newest first, until one returns true.
   /// Returns that one, or null.
@@ -162,6 +164,7 @@ class Observers {
   sac::Engine& engine_;
   VertexPool<D>& pool_;
   Quadtree<D>& tree_;
+  std::size_t live_ = 0;              // observations
   std::vector<Arrival> arrivals_{1};  // the first stands for the end of a list
 };
 

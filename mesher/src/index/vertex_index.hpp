@@ -323,6 +323,7 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   /// it is farther than r from x, which is quicker to tell. None throws.
   template <class Beyond, class Distance>
   void feature_changed(Beyond&& beyond, Distance&& distance) noexcept {
+    if (!observers_.any()) return;
     tree_.visit_within(Base::kBeside, beyond, [&](const Vertex<D>& center) {
       double away = -1;  // not known
       const auto is_within = [&](double r) {

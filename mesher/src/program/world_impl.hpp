@@ -33,18 +33,18 @@ void PointWorld<S, D>::add_boundary() {
   });
 }
 
+// Edges are split before there are tiles.
 template <class AnyWorld>
 void post_cells(AnyWorld& w) {
   using Whole = typename AnyWorld::AnyCell;
-  if (!w.locates) return;
-  w.fills.template post_from_outside<fill>(fill_key(Whole()), Whole());
-  w.post_edges();
+  if (w.locates) w.fills.template post_from_outside<fill>(fill_key(Whole()), Whole());
+  if (w.border == nullptr) w.post_edges();
 }
 template <class AnyWorld>
 void retract_cells(AnyWorld& w) {
-  if (!w.locates) return;
-  w.fills.template retract_from_outside<fill>(typename AnyWorld::AnyCell());
-  w.retract_edges();
+  using Whole = typename AnyWorld::AnyCell;
+  if (w.locates) w.fills.template retract_from_outside<fill>(Whole());
+  if (w.border == nullptr) w.retract_edges();
 }
 
 template <class S, class AnyWorld, int D>
@@ -352,7 +352,7 @@ template <class S>
 void World<S, 3>::insert_beside(S& s, const Vertex<3>& v, CellOf<3>& cell, const Placed& y, int b) {
   if constexpr (S::kTraced) {
     if (this->border != nullptr) [[unlikely]] {
-      const double least = this->border->nearness(s) * kNearest * this->buckets().shortest(b);
+      const double least = this->border->nearness(s) * nearest_in(*this) * this->buckets().shortest(b);
       if (is_within(cell, y.p, least)) throw TooNear();
     }
   }

@@ -28,6 +28,7 @@ using mesher::Polygon;
 using mesher::PolygonId;
 using mesher::Progress;
 using mesher::RunControl;
+using mesher::SizeLimits;
 using support::is_same;
 using support::is_tiled;
 using support::said;
@@ -44,11 +45,17 @@ Options<3> options_for(int threads, double rho = 2, const mesher::Box<3>& domain
   return options;
 }
 
+Options<3> on_one_thread(Options<3> options) {
+  options.threads = 1;
+  return options;
+}
+
 // The same edits of two meshers, one of which has several threads.
 class Pair {
  public:
   explicit Pair(int threads, double rho = 2, const mesher::Box<3>& domain = kParcels)
-      : many_(options_for(threads, rho, domain)), one_(options_for(1, rho, domain)) {}
+      : Pair(options_for(threads, rho, domain)) {}
+  explicit Pair(const Options<3>& options) : many_(options), one_(on_one_thread(options)) {}
 
   void insert(PointId id, const Point<3>& p) {
     both([&](auto& m) { m.insert(id, p); });
@@ -70,6 +77,12 @@ class Pair {
   }
   void remove_polygon(PolygonId id) {
     both([&](auto& m) { m.remove_polygon(id); });
+  }
+  void limit(const SizeLimits<3>& limits) {
+    both([&](auto& m) { m.limit(limits); });
+  }
+  void limit(const mesher::Box<3>& box, const SizeLimits<3>& limits) {
+    both([&](auto& m) { m.limit(box, limits); });
   }
   void discard_edits() {
     both([&](auto& m) { m.discard_edits(); });
@@ -152,19 +165,46 @@ class Pair {
   BoxMesher<3> many_, one_;
 };
 
-void check_edits(std::uint64_t seed, int threads, int updates, double rho = 2) {
-  CAPTURE(seed, threads, rho);
-  Pair pair(threads, rho);
+// `prepare` makes other edits before each update but the first.
+template <class Prepare>
+void check_edits(std::uint64_t seed, const Options<3>& options, int updates, Prepare&& prepare) {
+  CAPTURE(seed, options.threads, options.rho, options.min_dihedral, options.max_measure);
+  Pair pair(options);
   support::SpaceParcels<Pair> parcels(pair, seed);
   int done = 0;
   for (int update = 0; update < updates; ++update) {
     CAPTURE(update);
     const std::uint64_t count = update == 0 ? 6 : 1 + parcels.below(3);
-    done += parcels.edit_and(count, [&] { pair.update(); });
+    done += parcels.edit_and(count, [&] {
+      if (update != 0) prepare(pair, parcels);
+      pair.update();
+    });
     if (update % 4 == 3) pair.check();
   }
   pair.check();
   CHECK(done > updates / 2);
+}
+void check_edits(std::uint64_t seed, int threads, int updates, double rho = 2) {
+  check_edits(seed, options_for(threads, rho), updates, [](auto&, auto&) {});
+}
+
+// Limits in boxes, sometimes everywhere; none in some.
+void edit_limits(Pair& pair, support::SpaceParcels<Pair>& any) {
+  constexpr double kMeasures[] = {0, 0.001, 0.01, 0.1};
+  const SizeLimits<3> limits{.max_measure = kMeasures[any.below(4)]};
+  if (any.below(6) == 0) return pair.limit(limits);
+  mesher::Box<3> box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    box.lo[i] = 0.25 * static_cast<double>(any.below(8));
+    box.hi[i] = box.lo[i] + 0.125 * static_cast<double>(1 + any.below(4));
+  }
+  pair.limit(box, limits);
+}
+void check_limits(std::uint64_t seed, int threads, int updates, double measure, double least) {
+  Options<3> options = options_for(threads);
+  options.max_measure = measure;
+  options.min_dihedral = least;
+  check_edits(seed, options, updates, edit_limits);
 }
 
 }  // namespace
@@ -181,6 +221,25 @@ TEST_CASE("soak: with complexes, on several threads every update is that of one"
 TEST_CASE("with complexes, on several threads every update is that of one, whatever rho is") {
   std::uint64_t seed = 100;
   for (const double rho : {1.42, 3.0}) check_edits(seed++, 2, 4, rho);
+}
+
+TEST_CASE("with complexes and limits of size, on several threads every update is that of one") {
+  check_limits(200, 2, 6, 0.01, 0);
+  check_limits(201, 3, 6, 0, 0);  // limits come, and go, in updates
+}
+TEST_CASE("with complexes, on several threads slivers are split as by one") {
+  for (const std::uint64_t seed : {300, 301}) {
+    Options<3> options = options_for(seed == 300 ? 2 : 5);
+    options.min_dihedral = 10;
+    check_edits(seed, options, 6, [](auto&, auto&) {});
+  }
+  check_limits(302, 3, 4, 0.02, 12);
+}
+TEST_CASE("soak: with complexes, limits and slivers on several threads", "[.soak][soak]") {
+  for (std::uint64_t seed = 310; seed < 340; ++seed) {
+    check_limits(seed, 2 + static_cast<int>(seed % 6), 12, seed % 2 == 0 ? 0.01 : 0,
+                 seed % 3 == 0 ? 10 : 0);
+  }
 }
 
 TEST_CASE("families of complexes, on several threads") {
