@@ -1,11 +1,12 @@
 // Several threads beside one: first runs, updates, and what the tiles say to each other.
 //
-//   threads_bench [[3d:|lines:]FAMILY:N:THREADS[:MEASURE]]...
+//   threads_bench [[alone:][3d:|lines:]FAMILY:N:THREADS[:MEASURE]]...
 //
-// Families of points, or of lines in the plane. MEASURE: the largest of a simplex, where the domain
-// divided by N is 1; without it any. Default: uniform:1000000:2 clusters:300000:2
-// 3d:uniform:100000:2 lines:segments:100000:2. One JSON line per figure, times
-// in seconds by the clock and of the process:
+// Families of points, or of lines in the plane. `alone`: of points that do not fit into memory
+// twice; the mesh of one thread has gone before that of several is made. MEASURE: the largest of a
+// simplex, where the domain divided by N is 1; without it any. Default: uniform:1000000:2
+// clusters:300000:2 3d:uniform:100000:2 lines:segments:100000:2. One JSON line per figure, times in
+// seconds by the clock and of the process:
 //   first_run  with points announced before: of one thread, of several, the ratio; of the latter
 //              the seconds before and after the tiles; calls over those of one, bytes of trace over
 //              those of one; seconds of the phases before the mesh and of it, of one and of several
@@ -14,6 +15,7 @@
 //   updates    microseconds by the clock, of points that move anywhere, one at a time: median and
 //              99th percentile of one and of several threads; a batch of 1000, of both; of lines
 //              that go and come again, a batch of 200
+//   alone      as first_run and updates, of less
 //   limits     the same of a quarter of MEASURE in boxes that 100 points would be in, and MEASURE
 //              again; a batch of 20 boxes
 #include <algorithm>
@@ -74,13 +76,14 @@ struct Case {
     }
     return m;
   }
-  void move_any(BoxMesher<D>& one, BoxMesher<D>& many) {
+  template <class... Meshers>
+  void move_any(Meshers&... meshers) {
     const PointId id{static_cast<std::int64_t>(random.below(points.size()))};
     Point<D> p;
     for (int i = 0; i < D; ++i) {
       p[i] = options.domain.lo[i] + random.unit() * (options.domain.hi[i] - options.domain.lo[i]);
     }
-    one.move(id, p), many.move(id, p);
+    (meshers.move(id, p), ...);
   }
 };
 
@@ -166,6 +169,44 @@ void bench_limits(Case<D>& c, BoxMesher<D>& one, BoxMesher<D>& many) {
   for (int k = 0; k < 20; ++k) static_cast<void>(limit(0.25));
   updates.update_together();
   updates.print(c.name(), "limits");
+}
+
+// One mesher after the other.
+template <int D>
+void bench_alone(const Case<D>& c) {
+  struct Figures {
+    Taken first;
+    mesher::MeshStats stats;
+    std::vector<double> us;
+    double batch = 0;
+  };
+  const auto figures_of = [&](int threads) {
+    Case<D> same = c;  // with the same random numbers
+    same.options.threads = threads;
+    BoxMesher<D> m = same.mesher(threads);
+    Figures f;
+    f.first = time_of([&] { m.update(); });
+    f.stats = m.stats();
+    for (int k = 0; k < 1000; ++k) {
+      same.move_any(m);
+      f.us.push_back(1e6 * time_of([&] { m.update(); }).clock);
+    }
+    for (int k = 0; k < 1000; ++k) same.move_any(m);
+    f.batch = time_of([&] { m.update(); }).clock;
+    return f;
+  };
+  const Figures one = figures_of(1), many = figures_of(c.threads);
+  std::printf(
+      "{\"bench\":\"threads\",\"figure\":\"alone\",%s,\"vertices\":[%zu,%zu],\"first_s\":[%.2f,%."
+      "2f],"
+      "\"speedup\":%.2f,\"process_s\":[%.2f,%.2f],\"trace_bytes\":[%llu,%llu],"
+      "\"median_us\":[%.1f,%.1f],\"p99_us\":[%.1f,%.1f],\"batch_ms\":[%.1f,%.1f]}\n",
+      c.name().c_str(), one.stats.vertices, many.stats.vertices, one.first.clock, many.first.clock,
+      one.first.clock / many.first.clock, one.first.process, many.first.process,
+      static_cast<unsigned long long>(one.stats.trace_bytes),
+      static_cast<unsigned long long>(many.stats.trace_bytes), bench::quantile(one.us, 0.5),
+      bench::quantile(many.us, 0.5), bench::quantile(one.us, 0.99), bench::quantile(many.us, 0.99),
+      1e3 * one.batch, 1e3 * many.batch);
 }
 
 template <int D>
@@ -280,7 +321,8 @@ bool bench_lines(const std::string& family, std::size_t n, int threads, double m
 }
 
 template <int D>
-bool bench_points(const std::string& family, std::size_t n, int threads, double measure) {
+bool bench_points(const std::string& family, std::size_t n, int threads, double measure,
+                  bool alone) {
   const auto kind = mesher::point_kind(family);
   if (!kind || n == 0 || threads < 1) return false;
   Case<D> c{family, n, threads, mesher::generate_points<D>(*kind, n, 1), measure, {}};
@@ -289,11 +331,13 @@ bool bench_points(const std::string& family, std::size_t n, int threads, double 
   for (int i = 0; i < D; ++i) {
     c.options.max_measure *= c.options.domain.hi[i] - c.options.domain.lo[i];
   }
-  bench_case(std::move(c));
+  alone ? bench_alone(c) : bench_case(std::move(c));
   return true;
 }
 
 bool bench_argument(std::string_view text) {
+  const bool alone = text.substr(0, 6) == "alone:";
+  if (alone) text.remove_prefix(6);
   const bool in_space = text.substr(0, 3) == "3d:", of_lines = text.substr(0, 6) == "lines:";
   if (in_space) text.remove_prefix(3);
   if (of_lines) text.remove_prefix(6);
@@ -304,9 +348,9 @@ bool bench_argument(std::string_view text) {
   const int threads = std::atoi(text.data() + second + 1);
   const std::size_t third = text.find(':', second + 1);
   const double measure = third == text.npos ? 0 : std::atof(text.data() + third + 1);
-  if (of_lines) return bench_lines(family, n, threads, measure);
-  return in_space ? bench_points<3>(family, n, threads, measure)
-                  : bench_points<2>(family, n, threads, measure);
+  if (of_lines) return !alone && bench_lines(family, n, threads, measure);
+  return in_space ? bench_points<3>(family, n, threads, measure, alone)
+                  : bench_points<2>(family, n, threads, measure, alone);
 }
 
 }  // namespace
@@ -319,7 +363,7 @@ int main(int argc, char** argv) {
              "lines:segments:100000:2"};
   for (const std::string_view text : cases) {
     if (bench_argument(text)) continue;
-    std::fprintf(stderr, "%s: not [3d:|lines:]FAMILY:N:THREADS[:MEASURE]\n",
+    std::fprintf(stderr, "%s: not [alone:][3d:|lines:]FAMILY:N:THREADS[:MEASURE]\n",
                  std::string(text).c_str());
     return 2;
   }

@@ -45,11 +45,11 @@ class LossyPeers final : public mesher::detail::Peers {
 
   std::span<const std::byte> changed(std::span<const std::byte> bytes, mesher::detail::Packer& to) {
     for (mesher::detail::Unpacker rest(bytes); !rest.is_empty();) {
-      auto [from, m] = mesher::detail::unpack_message<D>(rest);
+      auto [from, m] = mesher::detail::unpack_message<D>(rest, {});
       const bool is_it = messages_++ == which_;
       if (is_it && wrong_ == Wrong::lost) continue;
       if (is_it) make_another(m);
-      mesher::detail::pack(from, m, to);
+      mesher::detail::pack<D>(from, m, {}, to);
     }
     return to.bytes();
   }

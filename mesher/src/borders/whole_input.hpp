@@ -6,6 +6,7 @@
 
 namespace mesher::detail {
 
+class FeatureNumbers;
 class FeatureStore;
 
 template <int D>
@@ -17,6 +18,9 @@ struct WholeInput {
   /// In space: the edges and polygons, and the points that they are between; null: there are none.
   /// Where there are, tiles make the vertices alone: who has this puts the mesh together.
   const FeatureStore* complex = nullptr;
+  /// What all processes call segments, in space edges, and polygons; null: there is one process.
+  const FeatureNumbers* lines = nullptr;
+  const FeatureNumbers* polygons = nullptr;
 };
 
 }  // namespace mesher::detail

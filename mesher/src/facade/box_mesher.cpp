@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "facade/announced_features.hpp"
 #include "facade/announced_points.hpp"
 #include "facade/reentry_guard.hpp"
 #include "facade/state.hpp"
@@ -43,17 +44,6 @@ std::unique_ptr<AnyState<D>> state_for(const Options<D>& options, const Edits<D>
   return std::make_unique<State<D>>(options);
 }
 
-/// The features that there will be, as new ones.
-template <class Key, class Value>
-Staged<Key, Value> all_of(const Staged<Key, Value>& staged) {
-  Staged<Key, Value> all;
-  for (const auto& [id, value] : staged.committed()) all.set(id, value);
-  staged.for_each_edit([&](const Key& id, const Value*, const Value* is) {
-    all.set(id, is != nullptr ? std::optional(*is) : std::nullopt);
-  });
-  return all;
-}
-
 }  // namespace
 
 }  // namespace detail
@@ -66,15 +56,12 @@ struct BoxMesher<D>::Impl {
       : options(o),
         state(std::make_unique<State>(o)),
         box(detail::mesh_box(o)),
-        points(o.domain, box) {
+        points(o.domain, box),
+        features(o.rule, points) {
     predicates::self_test();
   }
 
   void insert(PointId id, const Point<D>& p);
-  void insert_line(LineId id, const detail::LinePoints& points);
-  void remove_line(LineId id);
-  void insert_polygon(const Polygon& polygon);
-  void remove_polygon(PolygonId id);
   void limit(detail::AllLimits<D> limits, const std::vector<Box<D>>& where);
   [[nodiscard]] Options<D> pending_options() const;
   void prepare_edits();
@@ -91,8 +78,7 @@ struct BoxMesher<D>::Impl {
   std::unique_ptr<detail::AnyState<D>> state;  // of the last update
   detail::MeshBox<D> box;
   detail::AnnouncedPoints<D> points;
-  detail::StagedLines lines;
-  detail::StagedPolygons polygons;  // in space
+  detail::AnnouncedFeatures<D> features;
   detail::PendingLimits<D> pending_limits;
   std::unique_ptr<detail::LiveArrays<D>> live;  // null: slots are not kept
   detail::ReentryGuard busy;
@@ -104,69 +90,6 @@ template <int D>
 void BoxMesher<D>::Impl::insert(PointId id, const Point<D>& p) {
   busy.require_idle();
   points.insert(*state, id, p);
-}
-
-// --- Lines and polygons ----------------------------------------------------------------------
-
-template <int D>
-void BoxMesher<D>::Impl::insert_line(LineId id, const detail::LinePoints& points) {
-  busy.require_idle();
-  if (options.rule != Rule::radius_edge) {
-    throw Error(ErrorCode::bad_option, "segments need the rule radius-edge", {},
-                {mesher::Feature(id)});
-  }
-  if (points.size() < 2) {
-    throw Error(ErrorCode::bad_option, "line " + id_text(id) + " has fewer than two points", {},
-                {mesher::Feature(id)});
-  }
-  if (lines.find(id) != nullptr) {
-    throw Error(ErrorCode::repeated_id, "line " + id_text(id) + " is there already", {},
-                {mesher::Feature(id)});
-  }
-  const auto same = std::adjacent_find(points.begin(), points.end());
-  if (same != points.end()) {
-    detail::fail_zero_length(id, *same, detail::places_of(this->points.place(*state, *same)));
-  }
-  lines.set(id, points);
-}
-
-template <int D>
-void BoxMesher<D>::Impl::remove_line(LineId id) {
-  busy.require_idle();
-  if (lines.find(id) == nullptr) {
-    throw Error(ErrorCode::unknown_id, "line " + id_text(id) + " is not there", {},
-                {mesher::Feature(id)});
-  }
-  lines.set(id, std::nullopt);
-}
-
-template <int D>
-void BoxMesher<D>::Impl::insert_polygon(const Polygon& polygon) {
-  busy.require_idle();
-  const auto refuse = [&](ErrorCode code, const std::string& why) {
-    throw Error(code, why, {}, {mesher::Feature(polygon.id)});
-  };
-  if (D == 2) refuse(ErrorCode::bad_option, "polygons are for space");
-  if (options.rule != Rule::radius_edge) {
-    refuse(ErrorCode::bad_option, "polygons need the rule radius-edge");
-  }
-  if (polygons.find(polygon.id) != nullptr) {
-    refuse(ErrorCode::repeated_id, "polygon " + id_text(polygon.id) + " is there already");
-  }
-  if constexpr (D == 3) {
-    detail::require_loops(polygon, [&](PointId p) { return points.place(*state, p); });
-  }
-  polygons.set(polygon.id, polygon);
-}
-
-template <int D>
-void BoxMesher<D>::Impl::remove_polygon(PolygonId id) {
-  busy.require_idle();
-  if (polygons.find(id) == nullptr) {
-    throw Error(ErrorCode::unknown_id, "polygon " + id_text(id) + " is not there", {},
-                {mesher::Feature(id)});
-  }
-  polygons.set(id, std::nullopt);
 }
 
 // --- Limits ----------------------------------------------------------------------------------
@@ -187,23 +110,20 @@ Options<D> BoxMesher<D>::Impl::pending_options() const {
 // So that commit_edits() needs no memory.
 template <int D>
 void BoxMesher<D>::Impl::prepare_edits() {
-  lines.prepare();
-  polygons.prepare();
+  features.prepare();
 }
 
 template <int D>
 void BoxMesher<D>::Impl::commit_edits() noexcept {
   pending_limits.commit(options);
-  lines.commit();
-  polygons.commit();
+  features.commit();
   discard_edits();
 }
 
 template <int D>
 void BoxMesher<D>::Impl::discard_edits() noexcept {
   pending_limits.clear();
-  lines.discard();
-  polygons.discard();
+  features.discard();
   points.clear();
 }
 
@@ -213,8 +133,8 @@ Change<D> BoxMesher<D>::Impl::run_anew(const RunControl& control, const LastWord
                                        int threads) {
   Options<D> now = pending_options();
   now.threads = threads;
-  const auto every_line = detail::all_of(lines);
-  const auto every_polygon = detail::all_of(polygons);
+  const auto every_line = detail::all_of(features.lines());
+  const auto every_polygon = detail::all_of(features.polygons());
   detail::Edits<D> edits{points.all(*state), every_line, every_polygon};
   std::unique_ptr<detail::AnyState<D>> fresh = detail::state_for(now, edits);
   const Mesh<D> before = state->ran() ? state->mesh() : Mesh<D>();
@@ -235,7 +155,7 @@ template <int D>
 Change<D> BoxMesher<D>::Impl::run(const RunControl& control, const LastWord& accept) {
   points.require_apart(*state);
   if (state->ran()) {
-    const detail::Edits<D> edits{points.pending().sorted(), lines, polygons,
+    const detail::Edits<D> edits{points.pending().sorted(), features.lines(), features.polygons(),
                                  pending_limits.edit(options)};
     if (!state->takes(edits)) return run_anew(control, accept, options.threads);
     if (!state->is_sooner_anew(edits)) return state->propagate(edits, control, accept);
@@ -246,7 +166,7 @@ Change<D> BoxMesher<D>::Impl::run(const RunControl& control, const LastWord& acc
     }
   }
   const Options<D> now = pending_options();
-  detail::Edits<D> edits{points.pending().sorted(), lines, polygons};
+  detail::Edits<D> edits{points.pending().sorted(), features.lines(), features.polygons()};
   std::unique_ptr<detail::AnyState<D>> fresh = detail::state_for(now, edits);
   Change<D> change = fresh->first_run(std::move(edits), control, accept);
   state = std::move(fresh);
@@ -343,27 +263,32 @@ void BoxMesher<D>::move(PointId id, const Point<D>& point) {
 
 template <int D>
 void BoxMesher<D>::insert_segment(LineId id, PointId from, PointId to) {
-  impl_->insert_line(id, {from, to});
+  impl_->busy.require_idle();
+  impl_->features.insert_line(*impl_->state, id, {from, to});
 }
 
 template <int D>
 void BoxMesher<D>::insert_polyline(LineId id, const std::vector<PointId>& points) {
-  impl_->insert_line(id, points);
+  impl_->busy.require_idle();
+  impl_->features.insert_line(*impl_->state, id, points);
 }
 
 template <int D>
 void BoxMesher<D>::remove_line(LineId id) {
-  impl_->remove_line(id);
+  impl_->busy.require_idle();
+  impl_->features.remove_line(id);
 }
 
 template <int D>
 void BoxMesher<D>::insert_polygon(const Polygon& polygon) {
-  impl_->insert_polygon(polygon);
+  impl_->busy.require_idle();
+  impl_->features.insert_polygon(*impl_->state, polygon);
 }
 
 template <int D>
 void BoxMesher<D>::remove_polygon(PolygonId id) {
-  impl_->remove_polygon(id);
+  impl_->busy.require_idle();
+  impl_->features.remove_polygon(id);
 }
 
 template <int D>
@@ -392,8 +317,8 @@ bool BoxMesher<D>::has_limits() const {
 // In the other: lines go first, and points before others come to their places.
 template <int D>
 void BoxMesher<D>::announce_to(BoxMesher& other) const {
-  const auto& lines = impl_->lines;
-  const auto& polygons = impl_->polygons;
+  const auto& lines = impl_->features.lines();
+  const auto& polygons = impl_->features.polygons();
   polygons.for_each_edit([&](PolygonId id, const Polygon* was, const Polygon*) {
     if (was != nullptr) other.remove_polygon(id);
   });
@@ -416,12 +341,12 @@ void BoxMesher<D>::announce_to(BoxMesher& other) const {
 
 template <int D>
 bool BoxMesher<D>::contains_line(LineId id) const {
-  return impl_->lines.find(id) != nullptr;
+  return impl_->features.lines().find(id) != nullptr;
 }
 
 template <int D>
 bool BoxMesher<D>::contains_polygon(PolygonId id) const {
-  return impl_->polygons.find(id) != nullptr;
+  return impl_->features.polygons().find(id) != nullptr;
 }
 
 template <int D>
@@ -482,7 +407,7 @@ template <int D>
 std::vector<Polyline> BoxMesher<D>::lines() const {
   impl_->busy.require_idle();
   std::vector<Polyline> all;
-  for (const auto& [id, points] : impl_->lines.committed()) all.push_back({id, points});
+  for (const auto& [id, points] : impl_->features.lines().committed()) all.push_back({id, points});
   return all;
 }
 
@@ -490,7 +415,7 @@ template <int D>
 std::vector<Polygon> BoxMesher<D>::polygons() const {
   impl_->busy.require_idle();
   std::vector<Polygon> all;
-  for (const auto& [id, polygon] : impl_->polygons.committed()) all.push_back(polygon);
+  for (const auto& [id, polygon] : impl_->features.polygons().committed()) all.push_back(polygon);
   return all;
 }
 
@@ -504,16 +429,17 @@ std::optional<GraphPoint<D>> BoxMesher<D>::point(PointId id) const {
 template <int D>
 std::optional<Polyline> BoxMesher<D>::line(LineId id) const {
   impl_->busy.require_idle();
-  const auto it = impl_->lines.committed().find(id);
-  return it == impl_->lines.committed().end() ? std::nullopt
-                                              : std::optional(Polyline{id, it->second});
+  const auto it = impl_->features.lines().committed().find(id);
+  return it == impl_->features.lines().committed().end() ? std::nullopt
+                                                         : std::optional(Polyline{id, it->second});
 }
 
 template <int D>
 std::optional<Polygon> BoxMesher<D>::polygon(PolygonId id) const {
   impl_->busy.require_idle();
-  const auto it = impl_->polygons.committed().find(id);
-  return it == impl_->polygons.committed().end() ? std::nullopt : std::optional(it->second);
+  const auto it = impl_->features.polygons().committed().find(id);
+  return it == impl_->features.polygons().committed().end() ? std::nullopt
+                                                            : std::optional(it->second);
 }
 
 template <int D>

@@ -8,6 +8,10 @@
 
 #include "facade/settled.hpp"
 #include "facade/state.hpp"
+#include "facade/tiled_plane_state.hpp"
+#ifndef MESHER_PLANE_ONLY
+#include "facade/tiled_space_state.hpp"
+#endif
 #include "facade/whole_change.hpp"
 #include "mesh/canonical.hpp"
 #include "mesher/predicates.hpp"
@@ -25,9 +29,9 @@ const Options<D>& tileable(const Options<D>& options) {
   const StagedLines lines;
   const StagedPolygons polygons;
   const Edits<D> edits{PointEdits<D>(2), lines, polygons};
-  if (!bounds_dihedrals(options) && may_be_tiled(several, edits)) return options;
+  if (may_be_tiled(several, edits)) return options;
   throw Error(ErrorCode::bad_option,
-              "on several processes there is no min_dihedral and no rule but radius-edge");
+              "on several processes there are no recorded weights and no rule but radius-edge");
 }
 
 template <class T>
@@ -35,13 +39,20 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-// Vertices may be in several parts, simplices are not.
+template <int D>
+void pack(const Mesh<D>& mesh, Packer& to) {
+  to.put_all(mesh.vertices), to.put_all(mesh.kinds), to.put_all(mesh.simplices);
+  to.put_all(mesh.edges), to.put_all(mesh.faces);
+}
+
+// Vertices may be in several parts, simplices are not, nor what is on features.
 template <int D>
 Mesh<D> joined_mesh(const std::vector<Bytes>& parts) {
   using Simplex = typename Mesh<D>::Simplex;
   std::vector<Point<D>> places;
   std::vector<VertexKind> kinds;
   std::vector<Simplex> simplices;
+  OnFeatures on;
   for (const Bytes& bytes : parts) {
     Unpacker part(bytes);
     const auto first = static_cast<std::uint32_t>(places.size());
@@ -50,6 +61,13 @@ Mesh<D> joined_mesh(const std::vector<Bytes>& parts) {
     for (Simplex s : part.take_all<Simplex>()) {
       for (std::uint32_t& corner : s) corner += first;
       simplices.push_back(s);
+    }
+    for (const auto& e : part.template take_all<typename Mesh<D>::Edge>()) {
+      on.edges.push_back({first + e.low, first + e.high, e.feature});
+    }
+    for (const auto& f : part.template take_all<typename Mesh<D>::Face>()) {
+      const auto& [a, b, c] = f.corners;
+      on.faces.push_back({{first + a, first + b, first + c}, f.polygon});
     }
   }
   std::vector<std::uint32_t> order(places.size()), name(places.size());
@@ -68,9 +86,29 @@ Mesh<D> joined_mesh(const std::vector<Bytes>& parts) {
   for (Simplex& s : simplices) {
     for (std::uint32_t& corner : s) corner = name[corner];
   }
-  return canonical<D>(places_once, kinds_once, 0, {}, [&](auto&& visit) {
+  for (auto& e : on.edges) e.from = name[e.from], e.to = name[e.to];
+  for (auto& f : on.faces) {
+    for (std::uint32_t& corner : f.corners) corner = name[corner];
+  }
+  return canonical<D>(places_once, kinds_once, 0, on, [&](auto&& visit) {
     for (const Simplex& s : simplices) visit(s);
   });
+}
+
+void pack(const mesher::Polygon& polygon, Packer& to) {
+  to.put(std::uint64_t{polygon.loops.size()});
+  for (const auto& loop : polygon.loops) to.put_all(loop);
+  to.put_all(polygon.edges), to.put_all(polygon.points), to.put(polygon.marker);
+}
+mesher::Polygon unpack_polygon(PolygonId id, Unpacker& from) {
+  mesher::Polygon polygon{id, {}};
+  for (auto loops = from.take<std::uint64_t>(); loops > 0; --loops) {
+    polygon.loops.push_back(from.take_all<PointId>());
+  }
+  polygon.edges = from.take_all<std::array<PointId, 2>>();
+  polygon.points = from.take_all<PointId>();
+  polygon.marker = from.take<std::int64_t>();
+  return polygon;
 }
 
 // What only the process `to` is told; all, if it is nobody's number.
@@ -89,12 +127,17 @@ std::vector<Bytes> tell_to(Peers& peers, std::size_t to, const Bytes& mine) {
 
 template <int D>
 JointMesher<D>::JointMesher(std::unique_ptr<Peers> peers, const Options<D>& options)
-    : peers_(std::move(peers)), options_(options), edits_(options.domain, box_) {
+    : peers_(std::move(peers)),
+      options_(options),
+      edits_(options.domain, box_),
+      features_(options.rule, edits_) {
   together(*peers_, [&] {
     predicates::self_test();
     options_ = settled(options);
     box_ = mesh_box(options_);
-    state_ = std::make_unique<TiledState<D>>(tileable(options_), *peers_);
+    Joint first = state_for(tileable(options_), false, false, 0);
+    state_ = std::move(first.state);
+    part_ = first.part;
   });
   require_equal_options();
 }
@@ -105,6 +148,7 @@ void JointMesher<D>::require_equal_options() {
   together(*peers_, [&] {
     mine.put(options_.domain), mine.put(options_.rho), mine.put(options_.threads);
     mine.put(std::uint64_t{options_.max_vertices});
+    if constexpr (D == 3) mine.put(options_.min_dihedral);
     pack_limits(options_, mine);
   });
   require_equal(mine, "the options differ between processes");
@@ -131,6 +175,17 @@ void JointMesher<D>::announce(AnnouncedLimits<D> limits) {
   announced_limits_.announce(std::move(limits));
 }
 
+template <int D>
+void JointMesher<D>::announce(LineEdit edit) {
+  busy_.require_idle();
+  announced_lines_.push_back(std::move(edit));
+}
+template <int D>
+void JointMesher<D>::announce(PolygonEdit edit) {
+  busy_.require_idle();
+  announced_polygons_.push_back(std::move(edit));
+}
+
 // Those of all processes, made in all.
 template <int D>
 void JointMesher<D>::collect(const RunControl& control) {
@@ -138,6 +193,16 @@ void JointMesher<D>::collect(const RunControl& control) {
   together(*peers_, [&] {
     if (control.stop.stop_requested()) throw sac::Cancelled();
     mine.put_all(announced_);
+    mine.put(std::uint64_t{announced_lines_.size()});
+    for (const LineEdit& edit : announced_lines_) {
+      mine.put(edit.id), mine.put(edit.to.has_value());
+      if (edit.to) mine.put_all(*edit.to);
+    }
+    mine.put(std::uint64_t{announced_polygons_.size()});
+    for (const PolygonEdit& edit : announced_polygons_) {
+      mine.put(edit.id), mine.put(edit.to.has_value());
+      if (edit.to) pack(*edit.to, mine);
+    }
     announced_limits_.pack(options_.domain, mine);
   });
   const std::vector<Bytes> all = peers_->gather(mine.bytes());
@@ -153,9 +218,34 @@ void JointMesher<D>::collect(const RunControl& control) {
       }
     }
     edits_.require_apart(*state_);
+    collect_features(rest);
     limits = announced_limits_.joined(rest, peers_->self());
   });
   limit_all(limits);
+}
+
+// What is not there any more goes first, as far as it is of one process.
+template <int D>
+void JointMesher<D>::collect_features(std::vector<Unpacker>& rest) {
+  std::vector<PolygonEdit> polygons;
+  for (Unpacker& some : rest) {
+    for (auto lines = some.template take<std::uint64_t>(); lines > 0; --lines) {
+      const auto id = some.template take<LineId>();
+      if (some.template take<bool>()) {
+        features_.insert_line(*state_, id, some.template take_all<PointId>());
+      } else {
+        features_.remove_line(id);
+      }
+    }
+    for (auto count = some.template take<std::uint64_t>(); count > 0; --count) {
+      PolygonEdit& edit = polygons.emplace_back();
+      edit.id = some.template take<PolygonId>();
+      if (some.template take<bool>()) edit.to = unpack_polygon(edit.id, some);
+    }
+  }
+  for (const PolygonEdit& edit : polygons) {
+    edit.to ? features_.insert_polygon(*state_, *edit.to) : features_.remove_polygon(edit.id);
+  }
 }
 
 // Boxes are forgotten where fields are one object: this must be so in all.
@@ -178,6 +268,7 @@ void JointMesher<D>::limit_all(const std::vector<AnnouncedLimits<D>>& limits) {
 template <int D>
 void JointMesher<D>::clear_collected() noexcept {
   edits_.clear();
+  features_.discard();
   limits_.clear();
 }
 
@@ -188,8 +279,10 @@ Change<D> JointMesher<D>::update(const RunControl& control, Told told) {
   const ReentryGuard::Run running(busy_);
   try {
     collect(control);
+    together(*peers_, [&] { features_.prepare(); });
     Change<D> change = run_or_alone(control, told);
     limits_.commit(options_);
+    features_.commit();
     clear_collected();
     discard_edits();
     return change;
@@ -208,9 +301,10 @@ Change<D> JointMesher<D>::run(const RunControl& control, Told told) {
   if (!state_->ran()) return run_anew(control, told, 0);
   std::optional<Edits<D>> edits;
   together(*peers_, [&] {
-    edits.emplace(
-        Edits<D>{edits_.pending().sorted(), no_lines_, no_polygons_, limits_.edit(options_)});
+    edits.emplace(Edits<D>{edits_.pending().sorted(), features_.lines(), features_.polygons(),
+                           limits_.edit(options_)});
   });
+  if (!state_->takes(*edits)) return run_anew(control, told, 0);
   if (state_->is_sooner_anew(*edits)) {
     std::exception_ptr other;
     try {
@@ -222,20 +316,34 @@ Change<D> JointMesher<D>::run(const RunControl& control, Told told) {
     require_none(other);
   }
   return state_->propagate(*edits, control, [&](Change<D>& change) {
-    change = told_of({change, {}}, told);
+    change = part_->tells_all() ? told_of_all(std::move(change), told)
+                                : told_of({std::move(change), {}}, told);
   });
 }
 
 template <int D>
 Change<D> JointMesher<D>::run_or_alone(const RunControl& control, Told told) {
   std::exception_ptr other;
-  try {
-    return run(control, told);
-  } catch (const NotInTiles&) {
-  } catch (...) {
-    other = std::current_exception();
+  bool is_given_up = false;
+  const auto attempt = [&](auto&& run_it) -> std::optional<Change<D>> {
+    is_given_up = false;
+    try {
+      return run_it();
+    } catch (const NotInTiles&) {
+    } catch (const NotInTilesYet&) {
+      is_given_up = true;
+    } catch (...) {
+      other = std::current_exception();
+    }
+    require_none(other);
+    return std::nullopt;
+  };
+  if (auto change = attempt([&] { return run(control, told); })) return std::move(*change);
+  if (is_given_up) {
+    if (auto change = attempt([&] { return run_anew(control, told, 0); })) {
+      return std::move(*change);
+    }
   }
-  require_none(other);
   refuse_alone(control);
   return run_anew(control, told, 1);  // whose calls are those of one process
 }
@@ -250,22 +358,43 @@ void JointMesher<D>::require_none(const std::exception_ptr& other) {
   if (is_none == 0) throw std::bad_alloc();
 }
 
-// A state from the start, of all points.
+template <int D>
+auto JointMesher<D>::state_for(const Options<D>& options, bool has_lines, bool has_polygons,
+                               std::size_t tiles) -> Joint {
+  const auto make = [&]<class State>(std::type_identity<State>) {
+    auto state = std::make_unique<State>(options, *peers_, tiles);
+    const PartOfMesh<D>* part = state.get();
+    return Joint{std::move(state), part};
+  };
+  if constexpr (D == 2) {
+    if (has_lines) return make(std::type_identity<TiledPlaneState>());
+  }
+#ifndef MESHER_PLANE_ONLY
+  if constexpr (D == 3) {
+    if (has_lines || has_polygons) return make(std::type_identity<TiledSpaceState>());
+  }
+#endif
+  return make(std::type_identity<TiledState<D>>());
+}
+
+// A state from the start, of all that there is.
 template <int D>
 Change<D> JointMesher<D>::run_anew(const RunControl& control, Told told, std::size_t tiles) {
   PointEdits<D> points;
-  std::unique_ptr<TiledState<D>> fresh;
+  StagedLines lines;
+  StagedPolygons polygons;
+  Joint fresh;
   together(*peers_, [&] {
     points = state_->ran() ? edits_.all(*state_) : edits_.pending().sorted();
-    fresh = std::make_unique<TiledState<D>>(limits_.applied_to(options_), *peers_, tiles);
+    lines = all_of(features_.lines()), polygons = all_of(features_.polygons());
+    fresh = state_for(limits_.applied_to(options_), lines.has_edits(), polygons.has_edits(), tiles);
   });
-  Edits<D> edits{std::move(points), no_lines_, no_polygons_};
-  Change<D> change = fresh->first_run(std::move(edits), control, [&](Change<D>& whole) {
-    Part part;
-    together(*peers_, [&] { part = part_from_last(whole); });
-    whole = told_of(std::move(part), told);
+  Edits<D> edits{std::move(points), lines, polygons};
+  Change<D> change = fresh.state->first_run(std::move(edits), control, [&](Change<D>& whole) {
+    whole = told_anew(std::move(whole), fresh, told);
   });
-  state_ = std::move(fresh);
+  state_ = std::move(fresh.state);
+  part_ = fresh.part;
   return change;
 }
 
@@ -277,7 +406,9 @@ void JointMesher<D>::refuse_alone(const RunControl& control) {
     Options<D> now = limits_.applied_to(options_);
     now.threads = 1;
     State<D> alone(now);
-    const Edits<D> edits{edits_.all(*state_), no_lines_, no_polygons_};
+    const StagedLines lines = all_of(features_.lines());
+    const StagedPolygons polygons = all_of(features_.polygons());
+    const Edits<D> edits{edits_.all(*state_), lines, polygons};
     static_cast<void>(alone.first_run(edits, control, [](Change<D>&) {}));
   });
 }
@@ -289,7 +420,7 @@ template <int D>
 auto JointMesher<D>::part_from_last(Change<D>& whole) const -> Part {
   Part part{std::move(whole), {}};
   if (!state_->ran()) return part;
-  const Change<D> was = state_->whole();
+  const Change<D> was = part_->whole();
   count_from(was, part.change);
   const auto& before = was.vertices_added;
   for (const Point<D>& p : part.change.vertices_removed) {
@@ -300,7 +431,7 @@ auto JointMesher<D>::part_from_last(Change<D>& whole) const -> Part {
 }
 
 template <int D>
-void JointMesher<D>::pack(const Part& part, Packer& to) {
+void JointMesher<D>::pack_part(const Part& part, Packer& to) {
   const Change<D>& change = part.change;
   to.put_all(change.vertices_added);
   to.put_all(change.kinds_added);
@@ -309,6 +440,8 @@ void JointMesher<D>::pack(const Part& part, Packer& to) {
   to.put_all(change.kinds_changed);
   to.put_all(change.simplices_added);
   to.put_all(change.simplices_removed);
+  to.put_all(change.edges_added), to.put_all(change.edges_removed);
+  to.put_all(change.faces_added), to.put_all(change.faces_removed);
   to.put(change.calls);
 }
 
@@ -333,6 +466,10 @@ Change<D> JointMesher<D>::joined(const std::vector<Bytes>& parts) {
     append(all.kinds_changed, part.take_all<KindChange<D>>());
     append(all.simplices_added, part.take_all<std::array<Point<D>, D + 1>>());
     append(removed, part.take_all<std::array<Point<D>, D + 1>>());
+    append(all.edges_added, part.take_all<mesher::LineEdge<D>>());
+    append(lost.edges_added, part.take_all<mesher::LineEdge<D>>());
+    append(all.faces_added, part.take_all<mesher::PolygonFace<D>>());
+    append(lost.faces_added, part.take_all<mesher::PolygonFace<D>>());
     all.calls.executed += part.take<CallCounts>().executed;
   }
   std::sort(come.begin(), come.end());
@@ -357,14 +494,46 @@ template <int D>
 Change<D> JointMesher<D>::told_of(Part part, Told told) const {
   if (told == Told::own || peers_->is_alone()) return std::move(part.change);
   Packer mine;
-  together(*peers_, [&] { pack(part, mine); });
+  together(*peers_, [&] { pack_part(part, mine); });
   const std::size_t to = told == Told::first ? 0 : peers_->size();
   const std::vector<Bytes> parts = tell_to(*peers_, to, mine.bytes());
   Change<D> change;
   together(*peers_, [&] {
-    if (told == Told::all || peers_->self() == 0) change = joined(parts);
+    if (told == Told::first && peers_->self() != 0) return;
+    change = joined(parts);
+    change.angles = std::move(part.change.angles);
+    change.guard = std::move(part.change.guard);
   });
   return change;
+}
+
+// Of a change that all have.
+template <int D>
+Change<D> JointMesher<D>::told_of_all(Change<D> change, Told told) const {
+  peers_->sum({&change.calls.executed, 1});
+  Change<D> all;
+  together(*peers_, [&] {
+    if (told == Told::own) all = own_part(change, tiles());
+    if (told == Told::all || (told == Told::first && peers_->self() == 0)) all = std::move(change);
+  });
+  return all;
+}
+
+// Of the change from nothing by which `fresh` begins; angles and the guard are judged by what is
+// new in the whole mesh.
+template <int D>
+Change<D> JointMesher<D>::told_anew(Change<D> whole, const Joint& fresh, Told told) const {
+  Part part;
+  together(*peers_, [&] {
+    if (fresh.part->tells_all()) whole = own_part(whole, fresh.part->tiles());
+    part = part_from_last(whole);
+  });
+  if (!state_->ran() || !fresh.part->has_features()) return told_of(std::move(part), told);
+  Change<D> all = told_of(part, Told::all);
+  fresh.state->judge_new(all);
+  if (told == Told::all) return all;
+  part.change.angles = all.angles, part.change.guard = all.guard;
+  return told_of(std::move(part), told);
 }
 
 // --- Reading ---------------------------------------------------------------------------------
@@ -372,7 +541,20 @@ Change<D> JointMesher<D>::told_of(Part part, Told told) const {
 template <int D>
 Mesh<D> JointMesher<D>::own_mesh() const {
   busy_.require_idle();
-  return state_->ran() ? state_->mesh() : Mesh<D>();
+  return state_->ran() ? part_->own_mesh() : Mesh<D>();
+}
+
+template <int D>
+std::vector<Polyline> JointMesher<D>::lines() const {
+  std::vector<Polyline> all;
+  for (const auto& [id, points] : features_.lines().committed()) all.push_back({id, points});
+  return all;
+}
+template <int D>
+std::vector<mesher::Polygon> JointMesher<D>::polygons() const {
+  std::vector<mesher::Polygon> all;
+  for (const auto& [id, polygon] : features_.polygons().committed()) all.push_back(polygon);
+  return all;
 }
 
 template <int D>
@@ -388,9 +570,7 @@ Mesh<D> JointMesher<D>::gather(std::size_t to) const {
     SAC_EXPECTS(to < peers_->size());
     whole = own_mesh();
     if (peers_->is_alone()) return;
-    mine.put_all(whole.vertices);
-    mine.put_all(whole.kinds);
-    mine.put_all(whole.simplices);
+    pack(whole, mine);
     whole = {};
   });
   if (peers_->is_alone()) return whole;
@@ -406,8 +586,10 @@ MeshStats JointMesher<D>::stats() const {
   MeshStats s = state_->stats();
   std::array<std::uint64_t, 5> sums{s.vertices, s.simplices, s.calls, s.edges, s.trace_bytes};
   peers_->sum(sums);
-  s.vertices = static_cast<std::size_t>(sums[0]);
-  s.simplices = static_cast<std::size_t>(sums[1]);
+  if (!state_->ran() || !part_->tells_all()) {
+    s.vertices = static_cast<std::size_t>(sums[0]);
+    s.simplices = static_cast<std::size_t>(sums[1]);
+  }
   s.calls = sums[2], s.edges = sums[3], s.trace_bytes = sums[4];
   for (double* seconds : {&s.seconds_quadtree, &s.seconds_steiner, &s.seconds_triangulate}) {
     constexpr double kTicks = 1e9;

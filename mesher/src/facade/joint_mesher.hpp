@@ -1,8 +1,9 @@
-// A mesh of points that several processes keep together, with the bytes of one.
+// A mesh that several processes keep together, with the bytes of one.
 //
 // Each process has a JointMesher with the same options, and its tiles of the mesh: the calls of the
-// trace, and the simplices, are divided. Points and the tree that says how crowded they are, are
-// held by all: the trace is 10 to 20 times larger.
+// trace, and the simplices, are divided. The input, what is done to it before refinement, and the
+// tree that says how crowded it is, are held by all: the trace is 10 to 20 times larger. Where
+// there are lines or polygons in space all hold the mesh, too.
 //
 // Functions that are said to be of all are called by all processes, in the same order; they throw
 // in all, or in none (peers.hpp).
@@ -10,9 +11,12 @@
 
 #include <exception>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "facade/announced_features.hpp"
 #include "facade/announced_points.hpp"
 #include "facade/joint_limits.hpp"
 #include "facade/joint_numbers.hpp"
@@ -47,6 +51,15 @@ class JointMesher {
   void insert(PointId id, const Point<D>& p) { announce({Kind::insert, id, p}); }
   void remove(PointId id) { announce({Kind::remove, id, {}}); }
   void move(PointId id, const Point<D>& p) { announce({Kind::move, id, p}); }
+  void insert_segment(LineId id, PointId from, PointId to) {
+    announce(LineEdit{id, LinePoints{from, to}});
+  }
+  void insert_polyline(LineId id, const LinePoints& points) { announce(LineEdit{id, points}); }
+  void remove_line(LineId id) { announce(LineEdit{id, std::nullopt}); }
+  void insert_polygon(const mesher::Polygon& polygon) {
+    announce(PolygonEdit{polygon.id, polygon});
+  }
+  void remove_polygon(PolygonId id) { announce(PolygonEdit{id, std::nullopt}); }
   /// Limits of size, everywhere or in a box. Those with a function are announced by all processes
   /// (joint_limits.hpp).
   void limit(const SizeLimits<D>& limits) { announce({std::nullopt, limits}); }
@@ -54,19 +67,22 @@ class JointMesher {
   /// Of this process.
   void discard_edits() noexcept {
     announced_.clear();
+    announced_lines_.clear(), announced_polygons_.clear();
     announced_limits_.clear();
   }
 
-  /// Of all. Makes the edits of all processes, those of the first one first; places are judged when
-  /// all are made. Where limits change everywhere, tiles begin anew, and parts may change hands.
-  /// What tiles refuse because of limits the first process meshes alone, to say it as one process
-  /// would. Throws: as Mesher::update and announcing to one; what control.progress of one
-  /// process throws is std::runtime_error in others. The mesh is then as before in all; the edits
-  /// stay announced if it is Error(cancelled), else they are discarded, in all.
+  /// Of all. Makes the edits of all processes, those of the first one first, points before lines
+  /// before polygons; places are judged when all are made. Where limits change everywhere, tiles
+  /// begin anew, and parts may change hands. What tiles refuse because of limits or lines the first
+  /// process meshes alone, to say it as one process would. What is told of angles, and of the
+  /// guard, is of the whole mesh. Throws: as Mesher::update and announcing to one; what
+  /// control.progress of one process throws is std::runtime_error in others. The mesh is then as
+  /// before in all; the edits stay announced if it is Error(cancelled), else they are discarded, in
+  /// all.
   Change<D> update(const RunControl& control = {}, Told told = Told::all);
 
-  /// The simplices of this process, each of which no other has, and their vertices. Empty before
-  /// the first update.
+  /// The simplices of this process, each of which no other has, with their vertices, and edges and
+  /// faces on features likewise. Empty before the first update.
   [[nodiscard]] Mesh<D> own_mesh() const;
   /// Of all: those of own_mesh(), which is `own`.
   [[nodiscard]] JointNumbers numbers(const Mesh<D>& own) const;
@@ -85,11 +101,14 @@ class JointMesher {
   /// Points of the last update.
   [[nodiscard]] std::size_t size() const noexcept { return state_->size(); }
   [[nodiscard]] std::vector<GraphPoint<D>> points() const { return state_->points(); }
+  /// Ascending by id.
+  [[nodiscard]] std::vector<Polyline> lines() const;
+  [[nodiscard]] std::vector<mesher::Polygon> polygons() const;
   /// With the limits of the last update.
   [[nodiscard]] const Options<D>& options() const noexcept { return options_; }
   [[nodiscard]] Peers& peers() const noexcept { return *peers_; }
   /// Requires: an update.
-  [[nodiscard]] const TiledMesher<D>& tiles() const noexcept { return state_->tiles(); }
+  [[nodiscard]] const TiledMesher<D>& tiles() const noexcept { return part_->tiles(); }
   void check_invariants() const;
 
  private:
@@ -100,6 +119,19 @@ class JointMesher {
     Point<D> p;
   };
 
+  struct LineEdit {
+    LineId id;
+    std::optional<LinePoints> to;  // nothing: it goes
+  };
+  struct PolygonEdit {
+    PolygonId id;
+    std::optional<mesher::Polygon> to;
+  };
+  struct Joint {  // a state, and what it says as a part
+    std::unique_ptr<AnyState<D>> state;
+    const PartOfMesh<D>* part = nullptr;
+  };
+
   // Of this process, and what kind the vertices removed were, if these may be added in another.
   struct Part {
     Change<D> change;
@@ -108,6 +140,11 @@ class JointMesher {
 
   void announce(const Announcement& edit);
   void announce(AnnouncedLimits<D> limits);
+  void announce(LineEdit edit);
+  void announce(PolygonEdit edit);
+  void collect_features(std::vector<Unpacker>& rest);
+  [[nodiscard]] Joint state_for(const Options<D>& options, bool has_lines, bool has_polygons,
+                                std::size_t tiles);
   void require_equal_options();
   void require_equal(const Packer& mine, const char* what);
   void collect(const RunControl& control);
@@ -119,20 +156,24 @@ class JointMesher {
   void require_none(const std::exception_ptr& other);
   [[nodiscard]] Part part_from_last(Change<D>& whole) const;
   [[nodiscard]] Change<D> told_of(Part part, Told told) const;
-  static void pack(const Part& part, Packer& to);
+  [[nodiscard]] Change<D> told_of_all(Change<D> change, Told told) const;
+  [[nodiscard]] Change<D> told_anew(Change<D> whole, const Joint& fresh, Told told) const;
+  static void pack_part(const Part& part, Packer& to);
   static Change<D> joined(const std::vector<Bytes>& parts);
   void clear_collected() noexcept;
 
   std::unique_ptr<Peers> peers_;
   Options<D> options_;
   MeshBox<D> box_;
-  std::unique_ptr<TiledState<D>> state_;
+  std::unique_ptr<AnyState<D>> state_;
+  const PartOfMesh<D>* part_ = nullptr;  // of state_
   std::vector<Announcement> announced_;  // in this process
-  JointLimits<D> announced_limits_;      // likewise
-  AnnouncedPoints<D> edits_;             // in all
-  PendingLimits<D> limits_;              // likewise
-  StagedLines no_lines_;
-  StagedPolygons no_polygons_;
+  std::vector<LineEdit> announced_lines_;
+  std::vector<PolygonEdit> announced_polygons_;
+  JointLimits<D> announced_limits_;  // likewise
+  AnnouncedPoints<D> edits_;         // in all
+  AnnouncedFeatures<D> features_;    // likewise
+  PendingLimits<D> limits_;          // likewise
   ReentryGuard busy_;
 };
 

@@ -33,8 +33,10 @@ std::optional<T>& at(std::vector<std::optional<T>>& all, std::uint32_t handle) {
 
 }  // namespace
 
-TiledPlaneState::TiledPlaneState(const Options<2>& options)
-    : PlaneState(options), options_(options) {
+TiledPlaneState::TiledPlaneState(const Options<2>& options) : TiledPlaneState(options, alone_) {}
+
+TiledPlaneState::TiledPlaneState(const Options<2>& options, Peers& peers, std::size_t tiles)
+    : PlaneState(options), options_(options), peers_(peers), tiles_wanted_(tiles) {
   if (world_->limits.any()) retract_cells(*world_);
   world_->locates = false;
 }
@@ -48,34 +50,60 @@ std::optional<TileMesher<2>::Located> TiledPlaneState::located(const Vertex<2>& 
 
 // Of all that is there.
 auto TiledPlaneState::build(const Tiles::Ask& ask) -> std::unique_ptr<Tiles> {
-  const auto threads = static_cast<std::size_t>(options_.threads);
-  std::vector<Point<2>> places;
-  pool().for_each([&](const Vertex<2>& v) {
-    if (!v.boundary && world_->features.has(v)) places.push_back(v.p);
+  std::unique_ptr<Tiles> tiles;
+  Tiles::Edits by_tile;
+  std::shared_ptr<CommonOrders<2>> common;
+  together(peers_, [&] {
+    const auto threads = static_cast<std::size_t>(options_.threads);
+    std::vector<Point<2>> places;
+    pool().for_each([&](const Vertex<2>& v) {
+      if (!v.boundary && world_->features.has(v)) places.push_back(v.p);
+    });
+    if (!peers_.is_alone()) std::sort(places.begin(), places.end());  // not by handles
+    places = places_of_work(std::move(places), world_->limits, box_, options_.domain);
+    const WholeInput<2> whole{&pool(), &world_->features.tree(), nullptr,
+                              peers_.is_alone() ? nullptr : &numbers_};
+    const std::size_t wanted = tiles_wanted_ != 0 ? tiles_wanted_ : threads * peers_.size();
+    tiles = std::make_unique<Tiles>(options_, box_, places, wanted, threads, peers_, whole);
+    by_tile.resize(tiles->size());
+    told_points_.assign(pool().end_of_handles(), std::nullopt);
+    pool().for_each([&](const Vertex<2>& v) {
+      const auto is = told_points_[v.self] = located(v);
+      const auto tile = tiles->own_tile(v.p);
+      if (is && tile) by_tile[*tile].push_back({v.p, std::nullopt, is});
+    });
+    common = std::make_shared<CommonOrders<2>>();
+    LineOrders& lines = common->lines;
+    auto& segments = world_->segments;
+    told_zones_.assign(segments.pool().last() + std::size_t{1}, std::nullopt);
+    std::vector<SegmentHandle> all;
+    segments.pool().for_each([&](const Segment& s) {
+      if (!s.alive) return;
+      const Zones zones = segments.zones(s);
+      told_zones_[s.self] = zones;
+      lines.segments.push_back({s.self, s.a, s.b, std::nullopt, zones});
+      all.push_back(s.self);
+    });
+    numbers_.clear();
+    number(std::move(all));
+    numbers_.commit();
+    world_->leaves.for_each([&](const Leaf& leaf) { lines.leaves.push_back({leaf.piece, true}); });
   });
-  places = places_of_work(std::move(places), world_->limits, box_, options_.domain);
-  const WholeInput<2> whole{&pool(), &world_->features.tree()};
-  auto tiles = std::make_unique<Tiles>(options_, box_, places, threads, threads, alone_, whole);
-  Tiles::Edits by_tile(tiles->size());
-  told_points_.assign(pool().end_of_handles(), std::nullopt);
-  pool().for_each([&](const Vertex<2>& v) {
-    const auto is = told_points_[v.self] = located(v);
-    if (is) by_tile[*tiles->own_tile(v.p)].push_back({v.p, std::nullopt, is});
-  });
-  const auto common = std::make_shared<CommonOrders<2>>();
-  LineOrders& lines = common->lines;
-  auto& segments = world_->segments;
-  told_zones_.assign(segments.pool().last() + std::size_t{1}, std::nullopt);
-  segments.pool().for_each([&](const Segment& s) {
-    if (!s.alive) return;
-    const Zones zones = segments.zones(s);
-    told_zones_[s.self] = zones;
-    lines.segments.push_back({s.self, s.a, s.b, std::nullopt, zones});
-  });
-  world_->leaves.for_each([&](const Leaf& leaf) { lines.leaves.push_back({leaf.piece, true}); });
   const Held held(world_->features);
   tiles->first_run(by_tile, ask, common);
   return tiles;
+}
+
+// Those that have none, in the order of their ends.
+void TiledPlaneState::number(std::vector<SegmentHandle> segments) {
+  if (peers_.is_alone()) return;
+  const auto ends = [&](SegmentHandle h) {
+    const Segment& s = world_->segments.pool()[h];
+    return std::pair(pool()[s.a].p, pool()[s.b].p);
+  };
+  std::sort(segments.begin(), segments.end(),
+            [&](SegmentHandle s, SegmentHandle t) { return ends(s) < ends(t); });
+  for (const SegmentHandle s : segments) numbers_.add(s);
 }
 
 // What an update has changed, before it is committed here.
@@ -98,7 +126,8 @@ void TiledPlaneState::find_points(News& news) {
     const std::optional<Located> is = located(v);
     std::optional<Located>& told = at(told_points_, h);
     if (is == told) continue;
-    news.by_tile[*tiles_->own_tile(v.p)].push_back({v.p, told, is});
+    const auto tile = tiles_->own_tile(v.p);
+    if (tile) news.by_tile[*tile].push_back({v.p, told, is});
     news.points.emplace_back(h, told);
     if (is.has_value() != told.has_value()) news.common.features.push_back(v.p);
     told = is;
@@ -107,6 +136,7 @@ void TiledPlaneState::find_points(News& news) {
 
 void TiledPlaneState::find_lines(News& news) {
   auto& segments = world_->segments;
+  std::vector<SegmentHandle> come;
   segments.store().for_each_changed([&](const Segment& s) {
     std::optional<Zones> is;
     if (s.alive) is = segments.zones(s);
@@ -114,8 +144,11 @@ void TiledPlaneState::find_lines(News& news) {
     if (is == told) return;
     news.common.lines.segments.push_back({s.self, s.a, s.b, told, is});
     news.zones.emplace_back(s.self, told);
+    if (!told) come.push_back(s.self);
+    if (!is) news.gone.push_back(s.self);
     told = is;
   });
+  number(std::move(come));
   world_->leaves.for_each_changed([&](const Leaf& leaf) {
     const bool is = world_->leaves.is_leaf(leaf);
     if (is != leaf.committed) news.common.lines.leaves.push_back({leaf.piece, is});
@@ -125,32 +158,42 @@ void TiledPlaneState::find_lines(News& news) {
 void TiledPlaneState::take_back(const News& news) noexcept {
   for (const auto& [h, was] : news.points) told_points_[h] = was;
   for (const auto& [h, was] : news.zones) told_zones_[h] = was;
+  numbers_.take_back();
 }
 
 // --- Runs ------------------------------------------------------------------------------------
 
 Change<2> TiledPlaneState::first_run(Edits<2> edits, const RunControl& control,
                                      const Accept& accept) {
-  ids_.reserve(edits.points.size());
-  ask_ = asking(control, Phase::quadtree, &fail_stopped);
-  for (const auto& edit : edits.points) add_first(edit);
-  add_features_first(edits);
-  in_tiles([&] {
-    engine_->run<split_all>();
-    world_->features.require_apart();
+  together(peers_, [&] {
+    ids_.reserve(edits.points.size());
+    ask_ = asking(control, Phase::quadtree, &fail_stopped);
+    for (const auto& edit : edits.points) add_first(edit);
+    add_features_first(edits);
   });
-  commit();
-  find_levels(*world_, options_.threads);
-  const Tiles::Ask ask = [&, points = ids_.size()](Phase phase, std::uint64_t calls) {
-    const std::uint64_t of = phase == Phase::quadtree ? std::max<std::uint64_t>(points, calls) : 0;
-    return detail::report(control, {phase, calls, of});
-  };
+  in_tiles([&] {
+    together(peers_, [&] {
+      engine_->run<split_all>();
+      world_->features.require_apart();
+    });
+  });
+  Tiles::Ask ask;
+  together(peers_, [&] {
+    commit();
+    find_levels(*world_, options_.threads);
+    ask = [&, points = ids_.size()](Phase phase, std::uint64_t calls) {
+      const std::uint64_t of =
+          phase == Phase::quadtree ? std::max<std::uint64_t>(points, calls) : 0;
+      return detail::report(control, {phase, calls, of});
+    };
+  });
   in_tiles([&] { tiles_ = build(ask); });
   require_leaves();
   ran_ = true;
-  Change<2> change = whole_change(mesh());
+  Change<2> change;
+  together(peers_, [&] { change = peers_.is_alone() ? whole_change(mesh()) : whole(); });
   set_first(stats_, change, *tiles_);
-  change.angles = all_angles(*world_, *tiles_, options_.rho);
+  change.angles = all_angles(wholly(), *tiles_, options_.rho);
   change.calls.executed = tiles_->calls();
   if (accept) accept(change);
   return change;
@@ -158,9 +201,12 @@ Change<2> TiledPlaneState::first_run(Edits<2> edits, const RunControl& control,
 
 // One thread looks at them all.
 void TiledPlaneState::require_leaves() const {
+  std::uint64_t keeps = 1;
   for (std::size_t t = 0; t < tiles_->size(); ++t) {
-    if ((*tiles_)[t].may_lose_leaves()) throw NotInTiles();
+    if ((*tiles_)[t].may_lose_leaves()) keeps = 0;
   }
+  peers_.least({&keeps, 1});
+  if (keeps == 0) throw NotInTiles();
 }
 
 Change<2> TiledPlaneState::propagate(const Edits<2>& edits, const RunControl& control,
@@ -169,7 +215,7 @@ Change<2> TiledPlaneState::propagate(const Edits<2>& edits, const RunControl& co
   Change<2> change;
   std::optional<Growth<2>> growth;  // before `accept` makes more of it
   News news;
-  Options<2> options = edits.limits ? edits.limits->options : options_;
+  std::optional<Options<2>> options;
   std::shared_ptr<const CommonOrders<2>> common;
   bool is_judged = false;  // what is thrown then is the caller's
   const std::uint64_t before = tiles_->calls();
@@ -178,36 +224,57 @@ Change<2> TiledPlaneState::propagate(const Edits<2>& edits, const RunControl& co
   };
   const auto last = [&](Tiles::Changes& changes) {
     require_leaves();
-    change = change_of(changes);
-    growth.emplace(change);
+    together(peers_, [&] {
+      change = change_of(changes);
+      growth.emplace(change);
+    });
+    change.angles = new_angles(wholly(), *tiles_, options_.rho, change.simplices_added);
     change.calls.executed = tiles_->calls() - before;
     is_judged = true;
     if (accept) accept(change);
   };
+  TogetherInside inside(peers_);
   const std::function<void()> run_tiles = [&] {  // while all can be undone here
-    make_room();
-    prepare_names();
-    find_news(edits, news);
-    if (!news.common.is_empty()) {
-      common = std::make_shared<const CommonOrders<2>>(std::move(news.common));
-    }
+    inside.begin();
+    together(peers_, [&] {
+      make_room();
+      prepare_names();
+      find_news(edits, news);
+      if (!news.common.is_empty()) {
+        common = std::make_shared<const CommonOrders<2>>(std::move(news.common));
+      }
+    });
     const Held held(world_->features);
     tiles_->update(news.by_tile, ask, last, common);
   };
-  ask_ = asking(control, Phase::update, &fail_stopped);
-  make(edits);
+  try {
+    options = edits.limits ? edits.limits->options : options_;
+    ask_ = asking(control, Phase::update, &fail_stopped);
+    make(edits);
+  } catch (...) {
+    inside.give_up();
+    throw;
+  }
   try {
     engine_->propagate(run_tiles);
   } catch (...) {
+    std::exception_ptr failure = std::current_exception();
+    try {
+      inside.give_up();
+    } catch (...) {
+      failure = std::current_exception();
+    }
     take_back(news);
     const Held held(world_->features);
     tiles_->take_back(news.by_tile, common);  // before records of ends are freed
     commit();
     forget();
     if (tiles_->is_broken()) tiles_ = build({});  // the mesh is a function of what is there
-    in_tiles([] { throw; }, !is_judged);
+    in_tiles([&] { std::rethrow_exception(failure); }, !is_judged);
   }
-  options_ = std::move(options);
+  options_ = std::move(*options);
+  for (const SegmentHandle s : news.gone) numbers_.take(s);
+  numbers_.commit();
   rename(edits.points);
   commit_names();
   forget();
@@ -221,8 +288,18 @@ Change<2> TiledPlaneState::propagate(const Edits<2>& edits, const RunControl& co
 Change<2> TiledPlaneState::change_of(Tiles::Changes& changes) const {
   Change<2> change = detail::change_of<2>(changes);
   report_edges(changes, change);
-  change.angles = new_angles(*world_, *tiles_, options_.rho, change.simplices_added);
   return change;
+}
+
+// Of triangles that were not there before, in any process.
+void TiledPlaneState::judge_new(Change<2>& change) const {
+  std::vector<std::array<Point<2>, 3>> own;
+  together(peers_, [&] {
+    for (const auto& t : change.simplices_added) {
+      if (tiles_->own_tile(t[0])) own.push_back(t);
+    }
+  });
+  change.angles = new_angles(wholly(), *tiles_, options_.rho, own);
 }
 
 // Leaves that ended or began, without those of which another piece is in the same place; and those
@@ -259,8 +336,16 @@ void TiledPlaneState::report_edges(const Tiles::Changes& changes, Change<2>& cha
 // --- Between updates -------------------------------------------------------------------------
 
 Mesh<2> TiledPlaneState::mesh() const {
-  return tiles_->mesh({}, [this](SegmentHandle s) { return old_line(s); });
+  const auto is_input = [this](const Point<2>& p) {
+    const Vertex<2>* v = world_->features.point_at(p);
+    return v != nullptr && v->p == p;
+  };
+  return tiles_->mesh(is_input, [this](SegmentHandle s) { return old_line(s); });
 }
+
+Change<2> TiledPlaneState::whole() const { return own_part(whole_change(mesh()), *tiles_); }
+
+WholeWorld TiledPlaneState::wholly() const { return {*world_, numbers_, peers_}; }
 
 MeshStats TiledPlaneState::stats() const {
   MeshStats s = stats_;

@@ -10,14 +10,19 @@
 #include <vector>
 
 #include "facade/plane_state.hpp"
+#include "facade/tile_angles.hpp"
 #include "facade/tiled_state.hpp"
+#include "tiles/feature_numbers.hpp"
 
 namespace mesher::detail {
 
-class TiledPlaneState final : public PlaneState {
+class TiledPlaneState final : public PlaneState, public PartOfMesh<2> {
  public:
   /// Throws: Error(bad_option).
   explicit TiledPlaneState(const Options<2>& options);
+  /// With so many tiles in all processes; 0: options.threads in each. `peers` must outlive it.
+  /// Throws: likewise.
+  TiledPlaneState(const Options<2>& options, Peers& peers, std::size_t tiles = 0);
 
   /// Both throw NotInTiles, too.
   Change<2> first_run(Edits<2> edits, const RunControl& control, const Accept& accept) override;
@@ -31,14 +36,19 @@ class TiledPlaneState final : public PlaneState {
     return changes_all_limits(edits);
   }
 
+  /// The part of this process.
   [[nodiscard]] Mesh<2> mesh() const override;
+  [[nodiscard]] Mesh<2> own_mesh() const override { return mesh(); }
+  [[nodiscard]] Change<2> whole() const override;
+  /// Of all.
+  void judge_new(Change<2>& change) const override;
   [[nodiscard]] MeshStats stats() const override;
   [[nodiscard]] const sac::Engine& engine() const noexcept override {
     return (*tiles_)[0].engine();
   }
   void check_invariants() const override;
 
-  [[nodiscard]] const TiledMesher<2>& tiles() const noexcept { return *tiles_; }
+  [[nodiscard]] const TiledMesher<2>& tiles() const noexcept override { return *tiles_; }
 
  private:
   using Tiles = TiledMesher<2>;
@@ -50,6 +60,7 @@ class TiledPlaneState final : public PlaneState {
     // As they were told before, so that it can be taken back.
     std::vector<std::pair<VertexHandle, std::optional<Located>>> points;
     std::vector<std::pair<SegmentHandle, std::optional<Zones>>> zones;
+    std::vector<SegmentHandle> gone;
   };
 
   [[nodiscard]] std::unique_ptr<Tiles> build(const Tiles::Ask& ask);
@@ -57,13 +68,18 @@ class TiledPlaneState final : public PlaneState {
   void find_news(const Edits<2>& edits, News& news);
   void find_points(News& news);
   void find_lines(News& news);
+  void number(std::vector<SegmentHandle> segments);
   void take_back(const News& news) noexcept;
   void require_leaves() const;
+  [[nodiscard]] WholeWorld wholly() const;
   [[nodiscard]] Change<2> change_of(Tiles::Changes& changes) const;
   void report_edges(const Tiles::Changes& changes, Change<2>& change) const;
 
   Options<2> options_;
   Alone alone_;
+  Peers& peers_;
+  std::size_t tiles_wanted_ = 0;                     // 0: as many as threads
+  FeatureNumbers numbers_;                           // of segments; empty, if there is one process
   std::vector<std::optional<Located>> told_points_;  // by handle
   std::vector<std::optional<Zones>> told_zones_;     // by handle
   std::unique_ptr<Tiles> tiles_;

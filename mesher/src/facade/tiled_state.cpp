@@ -42,6 +42,31 @@ bool changes_all_limits(const Edits<D>& edits) noexcept {
 }
 
 template <int D>
+Change<D> own_part(const Change<D>& change, const TiledMesher<D>& tiles) {
+  Change<D> own = change;
+  const auto keep = [&](auto& all, auto&& place_of) {
+    std::erase_if(all, [&](const auto& one) { return !tiles.own_tile(place_of(one)); });
+  };
+  own.vertices_added.clear(), own.kinds_added.clear();
+  for (std::size_t i = 0; i < change.vertices_added.size(); ++i) {
+    if (!tiles.own_tile(change.vertices_added[i])) continue;
+    own.vertices_added.push_back(change.vertices_added[i]);
+    own.kinds_added.push_back(change.kinds_added[i]);
+  }
+  keep(own.vertices_removed, [](const Point<D>& p) { return p; });
+  keep(own.kinds_changed, [](const auto& k) { return k.vertex; });
+  const auto least = [](const auto& corners) {
+    return *std::min_element(corners.begin(), corners.end());
+  };
+  keep(own.simplices_added, least), keep(own.simplices_removed, least);
+  keep(own.edges_added, [](const auto& e) { return e.low; });
+  keep(own.edges_removed, [](const auto& e) { return e.low; });
+  const auto least_of = [&](const auto& f) { return least(f.corners); };
+  keep(own.faces_added, least_of), keep(own.faces_removed, least_of);
+  return own;
+}
+
+template <int D>
 TiledState<D>::TiledState(const Options<D>& options)
     : options_(options),
       peers_(alone_),
@@ -162,16 +187,7 @@ Change<D> TiledState<D>::first_run(Edits<D> edits, const RunControl& control,
 
 template <int D>
 Change<D> TiledState<D>::whole() const {
-  Change<D> change = whole_change(mesh());
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < change.vertices_added.size(); ++i) {
-    if (!tiles_->own_tile(change.vertices_added[i])) continue;
-    change.vertices_added[kept] = change.vertices_added[i];
-    change.kinds_added[kept++] = change.kinds_added[i];
-  }
-  change.vertices_added.resize(kept);
-  change.kinds_added.resize(kept);
-  return change;
+  return own_part(whole_change(mesh()), *tiles_);
 }
 
 // --- Updates ---------------------------------------------------------------------------------
@@ -352,10 +368,12 @@ void TiledState<D>::check_invariants() const {
   SAC_INVARIANT(stats_.simplices == simplices);
 }
 
+template Change<2> own_part(const Change<2>&, const TiledMesher<2>&);
 template bool may_be_tiled(const Options<2>&, const Edits<2>&);
 template bool changes_all_limits(const Edits<2>&) noexcept;
 template class TiledState<2>;
 #ifndef MESHER_PLANE_ONLY
+template Change<3> own_part(const Change<3>&, const TiledMesher<3>&);
 template bool may_be_tiled(const Options<3>&, const Edits<3>&);
 template bool changes_all_limits(const Edits<3>&) noexcept;
 template class TiledState<3>;

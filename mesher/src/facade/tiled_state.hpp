@@ -6,6 +6,7 @@
 // process.
 #pragma once
 
+#include <exception>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -65,8 +66,50 @@ template <int D>
 template <int D>
 [[nodiscard]] bool changes_all_limits(const Edits<D>& edits) noexcept;
 
+/// What several processes have of one mesh that they keep together, each with a state of the whole
+/// input. Functions that are said to be of all are called by all of them, in the same order.
 template <int D>
-class TiledState final : public AnyState<D> {
+class PartOfMesh {
+ public:
+  virtual ~PartOfMesh() = default;
+  [[nodiscard]] virtual const TiledMesher<D>& tiles() const noexcept = 0;
+  /// The simplices of this process, and their vertices.
+  [[nodiscard]] virtual Mesh<D> own_mesh() const = 0;
+  /// That of this process from nothing: its vertices, its simplices and what is on these.
+  [[nodiscard]] virtual Change<D> whole() const = 0;
+  /// Whether changes, as accept() and the caller see them, are those of all processes.
+  [[nodiscard]] virtual bool tells_all() const noexcept { return false; }
+  /// Whether there may be lines or polygons.
+  [[nodiscard]] virtual bool has_features() const noexcept { return true; }
+};
+
+/// What of a change is this process's: each simplex, edge and face is of the process that has its
+/// least corner. Angles, the guard's report and counts stay.
+template <int D>
+[[nodiscard]] Change<D> own_part(const Change<D>& change, const TiledMesher<D>& tiles);
+
+/// Begins what all processes do together inside an edit of one of them: who fails before, and says
+/// so by give_up(), lets all fail.
+class TogetherInside {
+ public:
+  explicit TogetherInside(Peers& peers) : peers_(peers) {}
+  /// Of all. Throws: what one has given up for.
+  void begin() {
+    began_ = true;
+    if (!peers_.is_alone()) agree(peers_, nullptr);
+  }
+  /// In a handler. Throws, before begin(): as agree().
+  void give_up() {
+    if (!began_ && !peers_.is_alone()) agree(peers_, std::current_exception());
+  }
+
+ private:
+  Peers& peers_;
+  bool began_ = false;
+};
+
+template <int D>
+class TiledState final : public AnyState<D>, public PartOfMesh<D> {
  public:
   using typename AnyState<D>::Accept;
   using typename AnyState<D>::Named;
@@ -90,8 +133,9 @@ class TiledState final : public AnyState<D> {
   [[nodiscard]] bool ran() const noexcept override { return tiles_ != nullptr; }
   /// The simplices of this process, and their vertices.
   [[nodiscard]] Mesh<D> mesh() const override;
-  /// That of this process from nothing: its vertices and its simplices.
-  [[nodiscard]] Change<D> whole() const;
+  [[nodiscard]] Mesh<D> own_mesh() const override { return mesh(); }
+  [[nodiscard]] Change<D> whole() const override;
+  [[nodiscard]] bool has_features() const noexcept override { return false; }
   [[nodiscard]] MeshStats stats() const override;
   [[nodiscard]] const sac::Engine& engine() const noexcept override {
     return (*tiles_)[0].engine();
@@ -104,7 +148,7 @@ class TiledState final : public AnyState<D> {
 
   void check_invariants() const override;
 
-  [[nodiscard]] const TiledMesher<D>& tiles() const noexcept { return *tiles_; }
+  [[nodiscard]] const TiledMesher<D>& tiles() const noexcept override { return *tiles_; }
 
  private:
   using Ids = std::unordered_map<PointId, VertexHandle>;

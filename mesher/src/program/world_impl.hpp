@@ -352,7 +352,8 @@ template <class S>
 void World<S, 3>::insert_beside(S& s, const Vertex<3>& v, CellOf<3>& cell, const Placed& y, int b) {
   if constexpr (S::kTraced) {
     if (this->border != nullptr) [[unlikely]] {
-      const double least = this->border->nearness(s) * nearest_in(*this) * this->buckets().shortest(b);
+      const double least =
+          this->border->nearness(s) * nearest_in(*this) * this->buckets().shortest(b);
       if (is_within(cell, y.p, least)) throw TooNear();
     }
   }

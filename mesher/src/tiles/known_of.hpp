@@ -16,6 +16,7 @@ namespace mesher::detail {
 struct KnownOf {
   std::uint64_t looks = 0, looks_digest = 0;    // at the other's territory
   std::uint64_t births = 0, births_digest = 0;  // that the other sees, or has to complete
+  std::uint64_t calls = 0, calls_digest = 0;    // that it has to make: cuts, slivers that are split
 
   template <int D>
   void add(const Look<D>& look) noexcept {
@@ -29,8 +30,19 @@ struct KnownOf {
     const std::uint64_t on = sac::mix(role.label.bits() + role.on);
     births_digest += sac::mix(of(turn) ^ of(p) ^ on);
   }
+  template <int D>
+  void add(const CutOfLeaf<D>& cut) noexcept {
+    ++calls;
+    calls_digest += sac::mix(of(cut.turn) ^ hash_value(cut.piece) ^ number(cut.bucket));
+  }
+  template <int D>
+  void add(const SliverCall<D>& call) noexcept {
+    ++calls;
+    calls_digest += sac::mix(of(call.turn) ^ of(call.p) ^ number(call.bucket));
+  }
 
  private:
+  static std::uint64_t number(int n) noexcept { return sac::mix(static_cast<std::uint64_t>(n)); }
   static std::uint64_t bits(double x) noexcept { return std::bit_cast<std::uint64_t>(x + 0.0); }
   template <std::size_t N>
   static std::uint64_t of(const std::array<double, N>& p) noexcept {
@@ -60,6 +72,9 @@ struct KnownOf {
   }
   if (said.births != heard.births || said.births_digest != heard.births_digest) {
     return tell("births", said.births, heard.births);
+  }
+  if (said.calls != heard.calls || said.calls_digest != heard.calls_digest) {
+    return tell("calls", said.calls, heard.calls);
   }
   return {};
 }

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <utility>
 
-#include "sac/check.hpp"
+#include "borders/whole_input.hpp"
+#include "space/placed.hpp"
+#include "tiles/feature_numbers.hpp"
 #include "tiles/parcel.hpp"
 #include "tiles/tile_mesher.hpp"
 
@@ -24,33 +26,107 @@ template <int D>
   return turn;
 }
 
-/// A message of the tile `from`. As many bytes as it needs: those of one kind have no other's
-/// parts. Requires: it is not about lines, which several processes do not have.
+/// A role by the numbers of features, and by this process's handles.
 template <int D>
-void pack(std::uint32_t from, const Message<D>& m, Packer& to) {
+[[nodiscard]] Role numbered(Role role, const WholeInput<D>& whole) {
+  if (role.on == 0 || whole.lines == nullptr) return role;
+  if (D == 3 && polygon_of(role) != 0) {
+    role.on = whole.polygons->of(polygon_of(role)) | kOnPolygon;
+  } else {
+    role.on = whole.lines->of(role.on);
+  }
+  return role;
+}
+template <int D>
+[[nodiscard]] Role with_handle(Role role, const WholeInput<D>& whole) {
+  if (role.on == 0 || whole.lines == nullptr) return role;
+  if (D == 3 && polygon_of(role) != 0) {
+    role.on = whole.polygons->handle(polygon_of(role)) | kOnPolygon;
+  } else {
+    role.on = whole.lines->handle(role.on);
+  }
+  return role;
+}
+
+/// A place on a feature, which is named by its number among all processes', not by a handle.
+template <int D>
+void pack(const Role& role, const WholeInput<D>& whole, Packer& to) {
+  to.put(numbered(role, whole).on);
+  if (role.on != 0) to.put(role.label);
+}
+template <int D>
+[[nodiscard]] Role unpack_role(Unpacker& bytes, const WholeInput<D>& whole) {
+  Role role;
+  role.on = bytes.take<SegmentHandle>();
+  if (role.on == 0) return role;
+  role.label = bytes.take<Label>();
+  return with_handle(role, whole);
+}
+
+/// A message of the tile `from`. As many bytes as it needs: those of one kind have no other's
+/// parts.
+template <int D>
+void pack(std::uint32_t from, const Message<D>& m, const WholeInput<D>& whole, Packer& to) {
   using Kind = typename Message<D>::Kind;
   to.put(from), to.put(m.to), to.put(m.kind);
   pack(m.turn(), to);
-  if (m.kind == Kind::ask || m.kind == Kind::end) {
-    to.put(m.look.p), to.put(m.look.radius);
-  } else {
-    SAC_EXPECTS(m.kind < Kind::cut && m.birth.role.on == 0);
-    to.put(m.birth.p), to.put(std::int32_t{m.birth.bucket});
+  switch (m.kind) {
+    case Kind::ask:
+    case Kind::end:
+      to.put(m.look.p), to.put(m.look.radius);
+      break;
+    case Kind::arrive:
+    case Kind::depart:
+      to.put(m.birth.p), to.put(std::int32_t{m.birth.bucket}), to.put(m.birth.asks_nearest);
+      pack(m.birth.role, whole, to);
+      break;
+    case Kind::cut:
+    case Kind::uncut:
+      to.put(whole.lines->of(m.cut.piece.segment));
+      to.put(m.cut.piece.lo), to.put(m.cut.piece.hi), to.put(m.cut.piece.kind);
+      to.put(std::int32_t{m.cut.bucket});
+      break;
+    case Kind::split:
+    case Kind::unsplit:
+      to.put(m.slivers.p), to.put(std::int32_t{m.slivers.bucket});
+      break;
   }
 }
 template <int D>
-[[nodiscard]] std::pair<std::uint32_t, Message<D>> unpack_message(Unpacker& bytes) {
+[[nodiscard]] std::pair<std::uint32_t, Message<D>> unpack_message(Unpacker& bytes,
+                                                                  const WholeInput<D>& whole) {
   using Kind = typename Message<D>::Kind;
   const auto from = bytes.take<std::uint32_t>();
   Message<D> m{};
   m.to = bytes.take<std::uint32_t>();
   m.kind = bytes.take<Kind>();
   const auto turn = unpack_turn<D>(bytes);
-  const auto p = bytes.take<Point<D>>();
-  if (m.kind == Kind::ask || m.kind == Kind::end) {
-    m.look = {p, bytes.take<double>(), turn};
-  } else {
-    m.birth = {p, bytes.take<std::int32_t>(), turn};
+  switch (m.kind) {
+    case Kind::ask:
+    case Kind::end:
+      m.look.p = bytes.take<Point<D>>(), m.look.radius = bytes.take<double>();
+      m.look.turn = turn;
+      break;
+    case Kind::arrive:
+    case Kind::depart:
+      m.birth.p = bytes.take<Point<D>>(), m.birth.bucket = bytes.take<std::int32_t>();
+      m.birth.asks_nearest = bytes.take<bool>();
+      m.birth.role = unpack_role(bytes, whole);
+      m.birth.turn = turn;
+      break;
+    case Kind::cut:
+    case Kind::uncut:
+      m.cut.piece.segment = whole.lines->handle(bytes.take<SegmentHandle>());
+      m.cut.piece.lo = bytes.take<Label>(), m.cut.piece.hi = bytes.take<Label>();
+      m.cut.piece.kind = bytes.take<PieceKind>();
+      m.cut.bucket = bytes.take<std::int32_t>();
+      m.cut.turn = turn;
+      break;
+    case Kind::split:
+    case Kind::unsplit:
+      m.slivers.p = bytes.take<Point<D>>(), m.slivers.bucket = bytes.take<std::int32_t>();
+      m.slivers.turn = turn;
+      break;
   }
   return {from, m};
 }

@@ -6,6 +6,7 @@
 
 #include "mesh/canonical.hpp"
 #include "program/world_impl.hpp"
+#include "tiles/message_bytes.hpp"
 #include "tiles/tile_calls.hpp"
 
 namespace mesher::detail {
@@ -731,15 +732,22 @@ std::vector<KnownOf> TileMesher<D>::said() const {
     });
   });
   border_->for_each_birth([&](const Birth<D>& birth) {
-    all[all_.owner(birth.p)].add(birth.p, birth.turn, named(birth.role));
+    all[all_.owner(birth.p)].add(birth.p, birth.turn, of_all(named(birth.role)));
   });
   const auto& pool = world_->vertices.pool();
   for (std::size_t tile = 0; tile < askers_.size(); ++tile) {
     for (const auto& [h, told] : askers_[tile].told) {
       const auto born = birth_for(static_cast<std::uint32_t>(tile), pool[h]);
-      if (born) all[tile].add(pool[h].p, born->turn, born->role);
+      if (born) all[tile].add(pool[h].p, born->turn, of_all(born->role));
     }
   }
+  for (const auto& [cut, count] : cuts_) {
+    const CutOfLeaf<D> is = of_all(cut);
+    for (std::size_t tile = 0; tile < all.size(); ++tile) {
+      if (tile != self_) all[tile].add(is);
+    }
+  }
+  for (const auto& [call, count] : slivers_) all[all_.owner(call.p)].add(call);
   return all;
 }
 
@@ -748,9 +756,25 @@ std::vector<KnownOf> TileMesher<D>::heard() const {
   std::vector<KnownOf> all(all_.size());
   for (std::size_t tile = 0; tile < askers_.size(); ++tile) {
     for (const auto& [look, question] : askers_[tile].questions) all[tile].add(look);
+    for (const CutOfLeaf<D>& cut : askers_[tile].cuts) all[tile].add(of_all(cut));
+    for (const SliverCall<D>& call : askers_[tile].slivers) all[tile].add(call);
   }
-  for (const auto& [p, from] : from_) all[from.tile].add(p, from.born.turn, from.born.role);
+  for (const auto& [p, from] : from_) {
+    all[from.tile].add(p, from.born.turn, of_all(from.born.role));
+  }
   return all;
+}
+
+// Of a feature by its number, if there are several processes.
+template <int D>
+Role TileMesher<D>::of_all(const Role& role) const {
+  return numbered(role, border_->whole());
+}
+template <int D>
+CutOfLeaf<D> TileMesher<D>::of_all(CutOfLeaf<D> cut) const {
+  const auto& whole = border_->whole();
+  if (whole.lines != nullptr) cut.piece.segment = whole.lines->of(cut.piece.segment);
+  return cut;
 }
 
 template <int D>
@@ -775,25 +799,8 @@ std::string TileMesher<D>::answers_fault(std::size_t asker) const {
 
 template <int D>
 std::string TileMesher<D>::fault_with(const TileMesher& other) const {
-  const Asker& asker = other.askers_[self_];
   std::string fault = difference(said()[other.self_], other.heard()[self_], self_, other.self_);
   if (fault.empty()) fault = other.answers_fault(self_);
-  for (const auto& [cut, count] : cuts_) {
-    if (asker.cuts.contains(cut)) continue;
-    fault = "a leaf that tile " + std::to_string(self_) + " needs cut is not";
-  }
-  for (const CutOfLeaf<D>& cut : asker.cuts) {
-    if (cuts_.contains(cut)) continue;
-    fault = "a leaf is cut that tile " + std::to_string(self_) + " does not need cut";
-  }
-  for (const auto& [call, count] : slivers_) {
-    if (all_.owner(call.p) != other.self_ || asker.slivers.contains(call)) continue;
-    fault = "slivers that tile " + std::to_string(self_) + " sees are not split";
-  }
-  for (const SliverCall<D>& call : asker.slivers) {
-    if (slivers_.contains(call)) continue;
-    fault = "slivers are split that tile " + std::to_string(self_) + " does not see";
-  }
   return fault;
 }
 

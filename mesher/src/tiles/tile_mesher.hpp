@@ -230,7 +230,8 @@ class TileMesher {
   [[nodiscard]] std::size_t bytes() const;
   /// The certificate of what tiles know of each other: for each pair A, B
   ///   (1) what A has said to B, as A's state is now, B has heard, and nothing else: the looks of A
-  ///       that reach B's territory, A's births there, and the births in A of whom B was told;
+  ///       that reach B's territory, A's births there, the births in A of whom B was told, leaves
+  ///       that A needs cut, and B's vertices of which A sees slivers;
   ///   (2) B has answered each of A's looks, and has told A of all who were found.
   /// If that holds for all pairs, the mesh is that of one mesher for all. By tile. Cost: O(looks
   /// and births across borders).
@@ -238,7 +239,7 @@ class TileMesher {
   [[nodiscard]] std::vector<KnownOf> heard() const;
   /// (2), of this tile's answers to another. Returns: what is wrong; empty: nothing.
   [[nodiscard]] std::string answers_fault(std::size_t asker) const;
-  /// All of it, of what this tile has said to another, and of cuts.
+  /// All of it, of what this tile has said to another.
   [[nodiscard]] std::string fault_with(const TileMesher& other) const;
   void check_invariants() const;
 
@@ -298,6 +299,8 @@ class TileMesher {
   void hold(Vertex<D>& v, int by);
   void locate(const Order& order, VertexRef<D> v);
   [[nodiscard]] Role own(Role role) const;
+  [[nodiscard]] Role of_all(const Role& role) const;
+  [[nodiscard]] CutOfLeaf<D> of_all(CutOfLeaf<D> cut) const;
   [[nodiscard]] bool has_features_in_space() const noexcept;
   [[nodiscard]] Birth<D> named(Birth<D> birth) const noexcept;
   [[nodiscard]] Piece named(Piece piece) const noexcept;

@@ -23,6 +23,7 @@ TiledMesher<D>::TiledMesher(const Options<D>& options, const MeshBox<D>& box,
     : options_(options),
       threads_(threads),
       peers_(peers),
+      whole_(whole),
       all_(places, tiles),
       process_of_(all_.size()),
       in_(all_.size()),
@@ -172,7 +173,7 @@ void TiledMesher<D>::post(std::size_t tile, const Time& last) {
     const std::size_t process = process_of_[m.to];
     if (process == peers_.self()) return in_[from].push_back(m);
     ++exchanges_.messages_out;
-    pack(from, m, to_others_[process]);
+    pack(from, m, whole_, to_others_[process]);
   });
 }
 
@@ -200,7 +201,7 @@ void TiledMesher<D>::exchange(const Time& last) {
     attempt([&] {
       for (const Bytes& parcel : came) {
         for (Unpacker rest(parcel); !rest.is_empty(); ++messages) {
-          const auto [from, m] = unpack_message<D>(rest);
+          const auto [from, m] = unpack_message(rest, whole_);
           in_[from].push_back(m);
         }
       }
@@ -495,9 +496,9 @@ struct TiledMesher<D>::Others {
     const auto [it, is_new] =
         numbers.try_emplace(v.p, first + static_cast<std::uint32_t>(places.size()));
     if (is_new) {
-      const VertexKind inner = is_input(v.p) ? VertexKind::input : VertexKind::steiner;
+      const bool may_be_input = !v.boundary && !v.on_segment;
       places.push_back(v.p);
-      kinds.push_back(v.boundary ? VertexKind::boundary : inner);
+      kinds.push_back(may_be_input && is_input(v.p) ? VertexKind::input : v.kind());
     }
     return it->second;
   }
@@ -558,18 +559,21 @@ Mesh<D> TiledMesher<D>::mesh(const IsInput& is_input, const LineOf& line_of) con
   }
   Others others{is_input, static_cast<std::uint32_t>(places.size())};
   on_threads(tiles_.size(), [&](std::size_t t) { list_simplices(t, parts, others); });
-  places.insert(places.end(), others.places.begin(), others.places.end());
-  kinds.insert(kinds.end(), others.kinds.begin(), others.kinds.end());
   OnFeatures on;
-  const auto number_of = [&](const Point<D>& p) {
-    const std::size_t t = *own_tile(p);
-    return parts[t].first + parts[t].number[tiles_[t]->world().vertices.tree().find(p)->self];
-  };
-  for (const auto& tile : tiles_) {
-    tile->for_each_own_leaf([&](const Piece& piece, const Point<D>& lo, const Point<D>& hi) {
+  for (std::size_t t = 0; t < tiles_.size(); ++t) {
+    const auto& tree = tiles_[t]->world().vertices.tree();
+    const auto number_of = [&](const Point<D>& p) {
+      const auto owner = own_tile(p);
+      if (!owner) return others.number_of(*tree.find(p));
+      const VertexHandle there = tiles_[*owner]->world().vertices.tree().find(p)->self;
+      return parts[*owner].first + parts[*owner].number[there];
+    };
+    tiles_[t]->for_each_own_leaf([&](const Piece& piece, const Point<D>& lo, const Point<D>& hi) {
       on.edges.push_back({number_of(lo), number_of(hi), line_of(piece.segment)});
     });
   }
+  places.insert(places.end(), others.places.begin(), others.places.end());
+  kinds.insert(kinds.end(), others.kinds.begin(), others.kinds.end());
   return canonical<D>(places, kinds, 0, on, [&](auto&& visit) {
     for (const Part& part : parts)
       std::for_each(part.simplices.begin(), part.simplices.end(), visit);

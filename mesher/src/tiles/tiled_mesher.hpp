@@ -204,6 +204,7 @@ class TiledMesher {
   Options<D> options_;
   std::size_t threads_;
   Peers& peers_;
+  WholeInput<D> whole_;
   Territories<D> all_;
   std::size_t first_ = 0;                              // tile of this process
   std::vector<std::uint32_t> process_of_;              // by tile of all
