@@ -59,6 +59,26 @@ void MpiMesher<D>::move(PointId id, const Point<D>& point) {
   (*impl_)->move(id, point);
 }
 template <int D>
+void MpiMesher<D>::insert_segment(LineId id, PointId from, PointId to) {
+  (*impl_)->insert_segment(id, from, to);
+}
+template <int D>
+void MpiMesher<D>::insert_polyline(LineId id, const std::vector<PointId>& points) {
+  (*impl_)->insert_polyline(id, points);
+}
+template <int D>
+void MpiMesher<D>::remove_line(LineId id) {
+  (*impl_)->remove_line(id);
+}
+template <int D>
+void MpiMesher<D>::insert_polygon(const Polygon& polygon) {
+  (*impl_)->insert_polygon(polygon);
+}
+template <int D>
+void MpiMesher<D>::remove_polygon(PolygonId id) {
+  (*impl_)->remove_polygon(id);
+}
+template <int D>
 void MpiMesher<D>::limit(const SizeLimits<D>& limits) {
   (*impl_)->limit(limits);
 }
@@ -110,6 +130,14 @@ std::size_t MpiMesher<D>::size() const noexcept {
 template <int D>
 std::vector<GraphPoint<D>> MpiMesher<D>::points() const {
   return (*impl_)->points();
+}
+template <int D>
+std::vector<Polyline> MpiMesher<D>::lines() const {
+  return (*impl_)->lines();
+}
+template <int D>
+std::vector<Polygon> MpiMesher<D>::polygons() const {
+  return (*impl_)->polygons();
 }
 template <int D>
 const Options<D>& MpiMesher<D>::options() const noexcept {

@@ -1,7 +1,8 @@
 // Ranks: at every step the mesh, and the change, are those of one process, whatever happens on the
 // way. One case, by name, on the ranks that mpirun starts.
 //
-//   mpirun -n P mpi_test plane|space|places|failures|limit|memory|files|sizes|refused|sizes_memory
+//   mpirun -n P mpi_test plane|space|lines|complexes|lines_memory|complexes_memory|places|failures|
+//                        limit|memory|files|sizes|refused|sizes_memory
 //     FOLDER
 #include "mesher/mpi.hpp"
 
@@ -12,7 +13,9 @@
 
 #include "failing_new.hpp"
 #include "joint_limits_case.hpp"
+#include "joint_twin.hpp"
 #include "mesher/read.hpp"
+#include "space_parcels.hpp"
 
 namespace {
 
@@ -94,12 +97,24 @@ bool fails_at(std::uint64_t count, bool& burnt, const Act& act) {
   }
 }
 
+// The mesh is that of one process that has had none of the failures.
+template <int D>
+void require_fresh(MpiMesher<D>& m) {
+  mesher::BoxMesher<D> one(m.options());
+  for (const auto& p : m.points()) one.insert(p.id, p.at);
+  for (const auto& l : m.lines()) one.insert_polyline(l.id, l.points);
+  for (const auto& f : m.polygons()) one.insert_polygon(f);
+  one.update();
+  demand(m.gather() == (self == 0 ? one.mesh() : mesher::Mesh<D>()), "the mesh after failures");
+  demand(m.certificate().empty(), "the certificate after failures");
+}
+
 // One allocation after the other fails on the last rank, in an update of what announce() announces:
 // all take it back.
-template <class Announce>
-void check_failing_updates(MpiMesher<2>& m, const Announce& announce) {
+template <int D, class Announce>
+void check_failing_updates(MpiMesher<D>& m, const Announce& announce) {
   const auto update = [&] { static_cast<void>(m.update()); };
-  const mesher::Mesh<2> before = m.own_mesh();
+  const mesher::Mesh<D> before = m.own_mesh();
   bool burnt = true;
   for (std::uint64_t count = 1; burnt; count += 1 + count / 12) {
     burnt = false;
@@ -160,6 +175,99 @@ void check_memory() {
       if (i % size == self) m.move(PointId(i + 1), {points[i][1], points[i][0]});
     }
   });
+}
+
+// --- Lines and polygons
+
+void check_lines() {
+  std::uint64_t seed = 1;
+  for (const auto kind :
+       {mesher::PslgKind::segments, mesher::PslgKind::trees, mesher::PslgKind::fan}) {
+    MpiMesher<2> m(MPI_COMM_WORLD, {.domain = {{0, 0}, {1, 1}}});
+    support::JointTwin<2, MpiMesher<2>> twin(m, self, size);
+    support::JointLines edits(twin, seed);
+    edits.insert(mesher::generate_pslg({kind, 24, seed++}));
+    twin.update();
+    for (int step = 0; step < 8; ++step) {
+      for (std::uint64_t i = 1 + edits.below(3); i > 0; --i) edits.edit();
+      try {
+        twin.update();
+      } catch (const mesher::Error&) {  // of both
+      }
+    }
+    twin.check();
+  }
+}
+
+void check_complexes() {
+  mesher::Options<3> options;
+  options.domain.hi = {2, 2, 2};
+  for (const double least : {0.0, 8.0}) {
+    options.min_dihedral = least;
+    MpiMesher<3> m(MPI_COMM_WORLD, options);
+    support::JointTwin<3, MpiMesher<3>> twin(m, self, size);
+    support::SpaceParcels<support::JointTwin<3, MpiMesher<3>>> parcels(twin, 5);
+    for (int update = 0; update < 4; ++update) {
+      static_cast<void>(
+          parcels.edit_and(update == 0 ? 4 : 1 + parcels.below(3), [&] { twin.update(); }));
+    }
+    twin.check();
+  }
+}
+
+// One allocation after the other fails on the last rank, so that handles of features differ between
+// ranks from then on.
+void check_lines_memory() {
+  using mesher::LineId;
+  const auto graph = mesher::generate_pslg({mesher::PslgKind::trees, 10, 3});
+  MpiMesher<2> m(MPI_COMM_WORLD, {.domain = {{0, 0}, {1, 1}}});
+  check_failing_updates(m, [&] {
+    if (self != 0) return;
+    for (const auto& p : graph.points) m.insert(p.id, p.at);
+    for (const auto& s : graph.segments) m.insert_segment(s.id, s.from, s.to);
+  });
+  const auto ends = [&](std::size_t i) {
+    return std::pair(graph.segments[i].from, graph.segments[i].to);
+  };
+  check_failing_updates(m, [&] {
+    if (self == size - 1) m.remove_line(graph.segments[2].id), m.remove_line(graph.segments[5].id);
+  });
+  check_failing_updates(m, [&] {
+    const auto [a, b] = ends(5);
+    if (self == 0) m.insert_segment(LineId{5000}, a, b);
+    if (self == size - 1) m.insert(PointId{9000}, {0.013, 0.987});
+  });
+  check_failing_updates(m, [&] {
+    const auto [a, b] = ends(2);
+    if (self == size - 1) m.insert_segment(LineId{5001}, a, b), m.remove(PointId{9000});
+  });
+  require_fresh(m);
+}
+
+void check_complexes_memory() {
+  mesher::Options<3> options;
+  options.domain.hi = {1, 1, 1};
+  MpiMesher<3> m(MPI_COMM_WORLD, options);
+  const auto insert_face = [&](std::int64_t id, const std::array<std::int64_t, 3>& corners) {
+    mesher::Polygon face{mesher::PolygonId{id}, {{}}};
+    for (const std::int64_t i : corners) face.loops[0].push_back(PointId{i});
+    m.insert_polygon(face);
+  };
+  check_failing_updates(m, [&] {
+    if (self != 0) return;
+    const Point<3> corners[] = {{0.2, 0.2, 0.2}, {0.8, 0.3, 0.2}, {0.4, 0.8, 0.3}, {0.5, 0.5, 0.9}};
+    for (int i = 0; i < 4; ++i) m.insert(PointId{i + 1}, corners[i]);
+    insert_face(1, {1, 2, 3}), insert_face(2, {1, 2, 4});
+  });
+  check_failing_updates(m, [&] {
+    if (self == size - 1) m.remove_polygon(mesher::PolygonId{1});
+    if (self == 0) m.move(PointId{4}, {0.5, 0.45, 0.85});
+  });
+  check_failing_updates(m, [&] {
+    if (self == size - 1) insert_face(3, {2, 3, 4});
+    if (self == 0) m.insert_segment(mesher::LineId{1}, PointId{1}, PointId{3});
+  });
+  require_fresh(m);
 }
 
 // --- Limits of size
@@ -255,11 +363,20 @@ int main(int argc, char** argv) {
   const struct {
     const char* name;
     void (*check)();
-  } kCases[] = {{"plane", check_plane},       {"space", check_space},
-                {"failures", check_failures}, {"places", check_places},
-                {"limit", check_limit},       {"memory", check_memory},
-                {"files", check_files},       {"sizes", check_sizes},
-                {"refused", check_refused},   {"sizes_memory", check_sizes_memory}};
+  } kCases[] = {{"plane", check_plane},
+                {"space", check_space},
+                {"lines", check_lines},
+                {"complexes", check_complexes},
+                {"lines_memory", check_lines_memory},
+                {"complexes_memory", check_complexes_memory},
+                {"failures", check_failures},
+                {"places", check_places},
+                {"limit", check_limit},
+                {"memory", check_memory},
+                {"files", check_files},
+                {"sizes", check_sizes},
+                {"refused", check_refused},
+                {"sizes_memory", check_sizes_memory}};
   bool is_known = false;
   try {
     for (const auto& one : kCases) {

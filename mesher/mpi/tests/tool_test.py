@@ -103,8 +103,38 @@ def check_limits():
                     expected.with_suffix(end).read_bytes(), (name, more, end)
 
 
+def check_features():
+    """Lines, polygons, surfaces and slivers, and edits of them: what the input encloses."""
+    lines = make_input("lines.poly", "trees", "--n", 60, "--seed", 4)
+    plates = make_input("plates.poly", "plates", "--size", 0.1)
+    cube = folder / "cube.off"
+    cube.write_text("OFF\n8 6 0\n" + "\n".join(f"{x} {y} {z}" for x in (0, 1) for y in (0, 1)
+                                              for z in (0, 1)) +
+                    "\n4 0 1 3 2\n4 4 6 7 5\n4 0 4 5 1\n4 2 3 7 6\n4 0 2 6 4\n4 1 5 7 3\n")
+    script = folder / "line_edits.txt"
+    script.write_text("begin\n+point 9001 0.31 0.33\n+point 9002 0.34 0.36\n"
+                      "+segment 9003 9001 9002 marker 7\ncommit\n-segment 9003\n"
+                      "+segment 9004 9001 9002\n")
+    solid_script = folder / "solid_edits.txt"
+    solid_script.write_text("begin\n+point 9001 0.3 0.3 0.2\n+point 9002 0.4 0.6 0.3\n"
+                            "+segment 9003 9001 9002 marker 7\ncommit\nmove 9001 0.2 0.3 0.25\n")
+    for source, more, edits in ((lines, [], script), (lines, ["--max-area", 0.01], None),
+                                (plates, ["--min-dihedral", 8], None), (plates, [], solid_script),
+                                (cube, ["--surface", "--max-volume", 0.01], solid_script)):
+        command = ["edit", source, "--script", edits or os.devnull, *more]
+        alone = folder / "alone.vtu"
+        subprocess.run([mesher, *map(str, command), "-o", alone, "--quiet"], check=True)
+        for ranks in (1, 3):
+            script_of_ranks = ["--script", edits] if edits else []
+            made = run_ranks(ranks, source, *more, *script_of_ranks, "-o", folder / "ranks.vtu")
+            assert made.returncode == 0, made.stderr
+            assert (folder / "ranks.vtu").read_bytes() == alone.read_bytes(), (source, more, ranks)
+
+
 def check_errors():
     source = make_input("plane.node", "uniform", "--n", 300)
+    crossing = folder / "crossing.poly"
+    crossing.write_text("4 2 0 0\n1 0 0\n2 1 1\n3 0 1\n4 1 0\n2 0\n1 1 2\n2 3 4\n0\n")
     far = folder / "far.txt"
     far.write_text("+point 9999 0.5 0.5\n+point 10000 1e6 0\n")
     for arguments, code, text in (
@@ -119,6 +149,9 @@ def check_errors():
         ([source, "-o", folder / "no.node", "--sizes", folder / "none.csv"], 2, "cannot_read"),
         ([source, "-o", folder / "none" / "no.msh", "--pieces"], 2, "cannot_write"),
         ([source, "-o", folder / "none" / "no.pvtu"], 2, "cannot_write"),
+        ([crossing, "-o", folder / "no.vtu"], 1, "crossing.poly:7:1: error[crossing"),
+        ([source, "--surface", "-o", folder / "no.vtu"], 2, "--surface is for space"),
+        ([source, "--min-dihedral", 5, "-o", folder / "no.vtu"], 2, "--min-dihedral is for space"),
         ([source, "-o", folder / "no.what"], 2, "unknown_format"),
         ([source, "--nonsense"], 2, "bad_option"),
     ):
@@ -178,6 +211,7 @@ shutil.rmtree(folder, ignore_errors=True)
 folder.mkdir(parents=True)
 check_bytes()
 check_limits()
+check_features()
 check_errors()
 if sys.platform == "linux":
     check_kills(8)

@@ -1,9 +1,10 @@
-// mesher-mpi: a mesh of a file of points by several ranks, which follows a script of edits.
+// mesher-mpi: a mesh of a file by several ranks, which follows a script of edits.
 #include <mpi.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <vector>
@@ -23,6 +24,7 @@ using mesher::Error;
 using mesher::ErrorCode;
 using mesher::ExitCode;
 using mesher::Graph;
+using mesher::LineId;
 using mesher::PointId;
 using mesher::detail::Bytes;
 using mesher::detail::MpiPeers;
@@ -38,7 +40,8 @@ struct Arguments {
   std::string sizes;
   std::size_t max_vertices = 0;
   int threads = 1;
-  bool pieces = false, stats = false;
+  double min_dihedral = 0;
+  bool surface = false, pieces = false, stats = false;
 };
 
 // What the first rank says, for all.
@@ -61,8 +64,7 @@ class Program {
   void run() {
     on_first([&] { read(), require_outputs(); });
     mesher::MpiMesher<D> m(MPI_COMM_WORLD, options());
-    for (const auto& p : graph_.points) m.insert(p.id, p.at);
-    on_first([&] { limit(m); });
+    on_first([&] { announce(m), limit(m); });
     mesh(m);
     if (!arguments_.script.empty()) follow(m);
     for (const std::string& path : arguments_.outputs) write(m, path);
@@ -78,15 +80,41 @@ class Program {
   }
 
   void read() {
-    const std::string format = mesher::format_of(arguments_.input);
-    const bool is_complex = D == 3 && (format == ".poly" || format == ".smesh");
+    const std::string& path = arguments_.input;
+    const std::string format = mesher::format_of(path);
+    const auto is_any = [&](std::initializer_list<const char*> formats) {
+      return std::find(formats.begin(), formats.end(), format) != formats.end();
+    };
+    if (D == 2) {
+      has_features_ = !is_any({".node", ".xyz", ".csv"});
+    } else {
+      has_features_ = arguments_.surface || is_any({".poly", ".smesh"});
+    }
+    if (D == 2 && arguments_.surface) {
+      throw Error(ErrorCode::bad_option, "--surface is for space; INPUT is in the plane", {path});
+    }
     mesher::ReadOptions how;
-    how.points_alone = D == 3 && !is_complex;
-    graph_ = mesher::read<D>(arguments_.input, how).graph;
-    bool has_more = !graph_.segments.empty() || !graph_.polylines.empty() || !graph_.seeds.empty();
-    if constexpr (D == 3) has_more = has_more || !graph_.polygons.empty();
-    if (has_more) {
-      throw Error(ErrorCode::unsupported, "several ranks mesh points alone", {arguments_.input});
+    how.points_alone = !has_features_;
+    file_ = mesher::read<D>(path, how);
+    const Graph<D>& graph = file_.graph;
+    if constexpr (D == 3) {
+      const bool has_lines = !graph.segments.empty() || !graph.polylines.empty();
+      if (arguments_.surface && !has_lines && graph.polygons.empty()) {
+        throw Error(ErrorCode::bad_option, "--surface: the file has no faces", {path});
+      }
+    }
+    for (const auto& p : graph.points) point_markers_[p.id] = p.marker;
+    for (const auto& s : graph.segments) line_markers_[s.id] = s.marker;
+    for (const auto& l : graph.polylines) line_markers_[l.id] = l.marker;
+  }
+
+  // Seeds say what is written.
+  void announce(mesher::MpiMesher<D>& m) const {
+    for (const auto& p : file_.graph.points) m.insert(p.id, p.at);
+    for (const auto& s : file_.graph.segments) m.insert_segment(s.id, s.from, s.to);
+    for (const auto& l : file_.graph.polylines) m.insert_polyline(l.id, l.points);
+    if constexpr (D == 3) {
+      for (const auto& f : file_.graph.polygons) m.insert_polygon(f);
     }
   }
 
@@ -122,7 +150,7 @@ class Program {
       } else if (is_in_pieces(path)) {
         files.open(mesher::detail::msh_piece_name(path, 0));
       } else {
-        static_cast<void>(mesher::open_mesh<D>(files, path));
+        static_cast<void>(mesher::open_mesh<D>(files, path, content()));
       }
     }
   }
@@ -131,11 +159,16 @@ class Program {
     std::vector<mesher::Point<D>> places;
     mesher::Options<D> options;
     on_first([&] {
-      for (const auto& p : graph_.points) places.push_back(p.at);
+      for (const auto& p : file_.graph.points) places.push_back(p.at);
       options.domain = mesher::snapped_domain<D>(places);
     });
     options.domain = of_first(peers_, options.domain);
     if (arguments_.rho != 0) options.rho = arguments_.rho;
+    if (D == 2 && arguments_.min_dihedral != 0) {
+      throw Error(ErrorCode::bad_option, "--min-dihedral is for space; INPUT is in the plane",
+                  {arguments_.input});
+    }
+    if constexpr (D == 3) options.min_dihedral = arguments_.min_dihedral;
     options.max_vertices = arguments_.max_vertices;
     options.threads = arguments_.threads;
     return options;
@@ -145,7 +178,8 @@ class Program {
     try {
       m.update({}, mesher::Told::own);
     } catch (const Error& error) {
-      throw error.at({arguments_.input});
+      const Error found = mesher::located(error, file_);
+      throw found.location().file.empty() ? found.at({arguments_.input}) : found;
     }
   }
 
@@ -175,9 +209,16 @@ class Program {
   }
 
   void note_marker(const mesher::Edit<D>& edit) {
-    if (edit.kind == mesher::EditKind::insert) markers_[PointId{edit.number}] = edit.marker;
+    using Kind = mesher::EditKind;
+    if (edit.kind == Kind::insert) point_markers_[PointId{edit.number}] = edit.marker;
+    if (edit.kind == Kind::insert_segment || edit.kind == Kind::insert_polyline) {
+      line_markers_[LineId{edit.number}] = edit.marker;
+    }
   }
 
+  mesher::MeshFiles content() const {
+    return has_features_ ? mesher::MeshFiles::features : mesher::MeshFiles::plain;
+  }
   bool is_in_pieces(const std::string& path) const {
     return arguments_.pieces && mesher::format_of(path) == ".msh";
   }
@@ -191,20 +232,20 @@ class Program {
       const auto made =
           mesher::domain_mesh(std::move(whole), graph_of(m), mesher::Extent::enclosed);
       mesher::OutputFiles files;
-      mesher::open_mesh<D>(files, path, mesher::MeshFiles::plain, how)(made.mesh,
-                                                                       made.mesh.features);
+      mesher::open_mesh<D>(files, path, content(), how)(made.mesh, made.mesh.features);
       files.commit();
     });
   }
 
   // The input, as it is now.
   Graph<D> graph_of(const mesher::MpiMesher<D>& m) const {
-    Graph<D> now;
-    std::map<PointId, std::int64_t> markers;
-    for (const auto& p : graph_.points) markers[p.id] = p.marker;
-    for (const auto& [id, marker] : markers_) markers[id] = marker;
+    Graph<D> now = file_.graph;
     now.points = m.points();
-    for (auto& p : now.points) p.marker = markers[p.id];
+    for (auto& p : now.points) p.marker = point_markers_.at(p.id);
+    now.segments.clear();
+    now.polylines = m.lines();
+    for (auto& l : now.polylines) l.marker = line_markers_.at(l.id);
+    if constexpr (D == 3) now.polygons = m.polygons();
     return now;
   }
 
@@ -227,32 +268,40 @@ class Program {
   const Arguments& arguments_;
   MpiPeers& peers_;
   bool is_first_;
-  Graph<D> graph_;                           // of the first rank
-  std::map<PointId, std::int64_t> markers_;  // of points that the script has brought
+  // Of the first rank; and the markers of all that there was.
+  mesher::GraphFile<D> file_;
+  bool has_features_ = false;
+  std::map<PointId, std::int64_t> point_markers_;
+  std::map<LineId, std::int64_t> line_markers_;
 };
 
 int run(int argc, char** argv, MpiPeers& peers) {
   const bool is_first = peers.self() == 0;
   Arguments arguments;
   CLI::App app{
-      "Makes a quality Delaunay mesh of a file of points by all ranks, and updates it under "
-      "edits:\n"
+      "Makes a quality Delaunay mesh of a file of points, lines or polygons by all ranks, and\n"
+      "updates it under edits: "
       "the mesh of 'mesher edit', to the last byte, whatever the number of ranks.",
       "mesher-mpi"};
   app.footer(
       "Example: mpirun -n 4 mesher-mpi points.node -o mesh.pvtu -o mesh.node --script edits.txt\n"
       "Exit codes, on all ranks: 0 ok, 1 geometry, 2 usage, 3 format, 4 limit, 70 a bug.");
-  app.add_option("INPUT", arguments.input, "A file of points: see 'mesher mesh --help'")
-      ->required();
-  app.add_option("-o,--output", arguments.outputs,
-                 "The mesh: .pvtu and a .vtu file beside it for each rank; or one file, in any\n"
-                 "format of 'mesher mesh', which the first rank gathers and writes")
+  app.add_option("INPUT", arguments.input, "A file as 'mesher mesh' reads it")->required();
+  app.add_flag("--surface", arguments.surface,
+               "In space: the faces of INPUT are polygons; else its points are meshed alone");
+  app.add_option(
+         "-o,--output", arguments.outputs,
+         "The mesh: .pvtu and a .vtu file beside it for each rank, of all of the box; or one\n"
+         "file, in any format of 'mesher mesh', of what the input encloses, which the first\n"
+         "rank gathers and writes")
       ->allow_extra_args(false);
   app.add_flag("--pieces", arguments.pieces,
                "NAME.msh is NAME_1.msh, NAME_2.msh, ..., one for each rank, as 'gmsh -part_split'\n"
                "writes them");
   app.add_option("--script", arguments.script, "Edits that are made one batch after the other");
   app.add_option("--rho", arguments.rho, "The bound on circumradius over shortest edge");
+  app.add_option("--min-dihedral", arguments.min_dihedral,
+                 "In space: tetrahedra with smaller dihedral angles are split, in degrees");
   CLI::Option* area =
       app.add_option("--max-area", arguments.max_area, "No triangle is larger: see 'mesher mesh'");
   CLI::Option* volume =

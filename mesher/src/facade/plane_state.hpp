@@ -24,6 +24,7 @@ class PlaneState : public LineState<2> {
     return segment_names_.taken().contains(s) && old_line(s) != line(s);
   }
   [[nodiscard]] bool any_renamed() const;
+  void free_features() noexcept override;
   [[nodiscard]] std::size_t feature_bytes() const override {
     return world_->segments.bytes() + world_->leaves.bytes();
   }
@@ -34,7 +35,6 @@ class PlaneState : public LineState<2> {
   void require_features(const Log& log) const override;
   void report_features(const Log& log, Change<2>& change) override;
   void find_angles(const std::vector<Simplex>& come, Change<2>& change) const override;
-  void free_features() noexcept override;
   [[nodiscard]] OnFeatures on_features(const std::vector<Simplex>& simplices) const override;
 
   [[nodiscard]] bool is_edge(const Leaf& leaf) const;

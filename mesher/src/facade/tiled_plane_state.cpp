@@ -134,25 +134,46 @@ void TiledPlaneState::find_points(News& news) {
   }
 }
 
+void TiledPlaneState::note_zones(const Segment& s, News& news, std::vector<SegmentHandle>& come) {
+  std::optional<Zones> is;
+  if (s.alive) is = world_->segments.zones(s);
+  std::optional<Zones>& told = at(told_zones_, s.self);
+  if (is == told) return;
+  news.common.lines.segments.push_back({s.self, s.a, s.b, told, is});
+  news.zones.emplace_back(s.self, told);
+  if (!told) come.push_back(s.self);
+  if (!is) news.gone.push_back(s.self);
+  told = is;
+}
+
 void TiledPlaneState::find_lines(News& news) {
   auto& segments = world_->segments;
   std::vector<SegmentHandle> come;
-  segments.store().for_each_changed([&](const Segment& s) {
-    std::optional<Zones> is;
-    if (s.alive) is = segments.zones(s);
-    std::optional<Zones>& told = at(told_zones_, s.self);
-    if (is == told) return;
-    news.common.lines.segments.push_back({s.self, s.a, s.b, told, is});
-    news.zones.emplace_back(s.self, told);
-    if (!told) come.push_back(s.self);
-    if (!is) news.gone.push_back(s.self);
-    told = is;
-  });
+  const auto note = [&](const Segment& s) { note_zones(s, news, come); };
+  if (are_zones_known_) {
+    segments.store().for_each_changed(note);
+  } else {
+    segments.pool().for_each(note);
+  }
   number(std::move(come));
   world_->leaves.for_each_changed([&](const Leaf& leaf) {
     const bool is = world_->leaves.is_leaf(leaf);
     if (is != leaf.committed) news.common.lines.leaves.push_back({leaf.piece, is});
   });
+}
+
+// Where an edit was taken back, what it has made forget is found again: only of who is known it is
+// noted that something has changed near by.
+void TiledPlaneState::free_features() noexcept {
+  try {
+    world_->segments.store().for_each_changed([&](const Segment& s) {
+      const bool is_told = s.self < told_zones_.size() && told_zones_[s.self];
+      if (is_told && s.alive) static_cast<void>(world_->segments.zones(s));
+    });
+  } catch (const std::bad_alloc&) {
+    are_zones_known_ = false;
+  }
+  PlaneState::free_features();
 }
 
 void TiledPlaneState::take_back(const News& news) noexcept {
@@ -273,6 +294,7 @@ Change<2> TiledPlaneState::propagate(const Edits<2>& edits, const RunControl& co
     in_tiles([&] { std::rethrow_exception(failure); }, !is_judged);
   }
   options_ = std::move(*options);
+  are_zones_known_ = true;
   for (const SegmentHandle s : news.gone) numbers_.take(s);
   numbers_.commit();
   rename(edits.points);

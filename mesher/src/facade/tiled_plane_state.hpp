@@ -68,6 +68,8 @@ class TiledPlaneState final : public PlaneState, public PartOfMesh<2> {
   void find_news(const Edits<2>& edits, News& news);
   void find_points(News& news);
   void find_lines(News& news);
+  void note_zones(const Segment& s, News& news, std::vector<SegmentHandle>& come);
+  void free_features() noexcept override;
   void number(std::vector<SegmentHandle> segments);
   void take_back(const News& news) noexcept;
   void require_leaves() const;
@@ -82,6 +84,7 @@ class TiledPlaneState final : public PlaneState, public PartOfMesh<2> {
   FeatureNumbers numbers_;                           // of segments; empty, if there is one process
   std::vector<std::optional<Located>> told_points_;  // by handle
   std::vector<std::optional<Zones>> told_zones_;     // by handle
+  bool are_zones_known_ = true;  // all that are told: who is near is noted when it changes
   std::unique_ptr<Tiles> tiles_;
 };
 

@@ -77,7 +77,9 @@ void pack(std::uint32_t from, const Message<D>& m, const WholeInput<D>& whole, P
       break;
     case Kind::arrive:
     case Kind::depart:
-      to.put(m.birth.p), to.put(std::int32_t{m.birth.bucket}), to.put(m.birth.asks_nearest);
+      to.put(m.birth.p), to.put(std::int32_t{m.birth.bucket});
+      if (whole.lines == nullptr) break;
+      to.put(m.birth.asks_nearest);
       pack(m.birth.role, whole, to);
       break;
     case Kind::cut:
@@ -110,9 +112,10 @@ template <int D>
     case Kind::arrive:
     case Kind::depart:
       m.birth.p = bytes.take<Point<D>>(), m.birth.bucket = bytes.take<std::int32_t>();
+      m.birth.turn = turn;
+      if (whole.lines == nullptr) break;
       m.birth.asks_nearest = bytes.take<bool>();
       m.birth.role = unpack_role(bytes, whole);
-      m.birth.turn = turn;
       break;
     case Kind::cut:
     case Kind::uncut:

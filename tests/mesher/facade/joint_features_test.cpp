@@ -1,5 +1,5 @@
-// Lines, polygons and slivers in meshers of several processes, here threads: at every step the mesh,
-// the change and the errors are those of one process, whatever happens on the way.
+// Lines, polygons and slivers in meshers of several processes, here threads: at every step the
+// mesh, the change and the errors are those of one process, whatever happens on the way.
 #include <catch2/catch.hpp>
 
 #include "facade/joint_mesher.hpp"
@@ -38,7 +38,8 @@ void edit_limits(Twin<2>& twin, Edits& edits) {
   twin.limit({{x, 0.2}, {x + 0.2, 0.2 + 0.05 * static_cast<double>(1 + edits.below(4))}}, limits);
 }
 
-void check_lines(const Lines& lines, std::size_t processes, int threads, int steps, double measure) {
+void check_lines(const Lines& lines, std::size_t processes, int threads, int steps,
+                 double measure) {
   CAPTURE(static_cast<int>(lines.kind), lines.seed, processes, threads, measure);
   const auto graph = mesher::generate_pslg({lines.kind, lines.n, lines.seed});
   const auto run = [&](std::unique_ptr<Peers> peers, std::size_t self) {

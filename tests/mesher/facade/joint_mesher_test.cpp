@@ -133,9 +133,9 @@ TEST_CASE("what is thrown in one process, and options that differ") {
   });
   support::in_processes(2, [&](std::unique_ptr<Peers> peers, std::size_t) {
     auto options = support::joint_options<3>(mesher::generate_points<3>(PointKind::uniform, 20, 1));
-    options.min_dihedral = 10;
+    options.record_weights = true;
     const std::string said = support::said_by([&] { JointMesher<3>(std::move(peers), options); });
-    support::demand(said.find("min_dihedral") != std::string::npos, "min_dihedral: " + said);
+    support::demand(said.find("weights") != std::string::npos, "record_weights: " + said);
   });
   support::in_processes(2, [&](std::unique_ptr<Peers> peers, std::size_t self) {
     auto options = support::joint_options<2>(points);

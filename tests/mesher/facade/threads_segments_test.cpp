@@ -254,6 +254,16 @@ TEST_CASE("lines come to a mesher of points on several threads, and all go again
   }
 }
 
+TEST_CASE("what is near lines is known again after an update that is refused") {
+  Pair pair(mesher::generate_pslg({PslgKind::fan, 12, 47}), 2);
+  for (auto* m : {&pair.many(), &pair.one()}) m->remove_line(LineId{3}), m->remove(PointId{1});
+  REQUIRE_FALSE(pair.update());  // the point is an end of others
+  pair.check();
+  for (auto* m : {&pair.many(), &pair.one()}) m->insert(PointId{50}, {0.4018, 0.712});
+  REQUIRE(pair.update());
+  pair.check();
+}
+
 TEST_CASE("lines that get another id, in the place where they were") {
   Pair pair(mesher::generate_pslg({PslgKind::segments, 30, 9}), 3);
   SplitMix64 random(9);

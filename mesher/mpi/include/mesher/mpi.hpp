@@ -1,5 +1,5 @@
-// A mesh of points that the ranks of a communicator keep together. It follows edits, and is that of
-// one process, to the last bit, whatever the number of ranks.
+// A mesh of points, lines and polygons that the ranks of a communicator keep together. It follows
+// edits, and is that of one process, to the last bit, whatever the number of ranks.
 //
 // Example:
 //   mesher::MpiMesher<2> m(MPI_COMM_WORLD, {.domain = {{0, 0}, {1, 1}}});
@@ -9,14 +9,15 @@
 //   mesher::write_mesh(m, "mesh.pvtu");    // a piece for each rank
 //
 // What is divided are the simplices and the trace by which the mesh follows edits, which is 10 to
-// 20 times larger than the points. The points themselves are held by all ranks.
+// 20 times larger than the points. The input itself is held by all ranks; where there are lines or
+// polygons in space, so is the mesh.
 //
 // Functions "of all" are called by all ranks, in the same order, with equal arguments; each comes
 // to its end in all, and throws in all or in none: an Error of one rank is thrown in all. MPI is
 // used on the calling thread alone.
 //
 // Guarantees, beside those of a Mesher (mesher.hpp):
-//   (1) the mesh and its changes are functions of the points and the options alone: not of the
+//   (1) the mesh and its changes are functions of the input and the options alone: not of the
 //       ranks, or of which of them announced what;
 //   (2) an update that one rank stops, or that fails in one, leaves the mesh in all;
 //   (3) each simplex is on exactly one rank.
@@ -59,8 +60,7 @@ class MpiMesher {
   /// Of all, with equal options. Each rank has options.threads threads, and as many tiles.
   /// Requires: MPI is initialized; for several threads with MPI_THREAD_FUNNELED.
   /// Throws: Error(bad_option): as Mesher; for options that differ between ranks (of functions of
-  /// size in what they say in a few places); for min_dihedral, record_weights, and another rule
-  /// than radius_edge.
+  /// size in what they say in a few places); for record_weights, and another rule than radius_edge.
   MpiMesher(MPI_Comm communicator, const Options<D>& options);
   MpiMesher(MpiMesher&&) noexcept;
   MpiMesher& operator=(MpiMesher&&) noexcept;
@@ -71,6 +71,13 @@ class MpiMesher {
   void insert(PointId id, const Point<D>& point);
   void remove(PointId id);
   void move(PointId id, const Point<D>& point);
+  /// Likewise; D is 3 for polygons. Points are edited before lines, and lines before polygons. They
+  /// divide the mesh and keep it within no bounds: it is that of the box (Mesher::box_mesh).
+  void insert_segment(LineId id, PointId from, PointId to);
+  void insert_polyline(LineId id, const std::vector<PointId>& points);
+  void remove_line(LineId id);
+  void insert_polygon(const Polygon& polygon);
+  void remove_polygon(PolygonId id);
   /// Announces limits of size in place of all that there were, or in a closed box, as the functions
   /// of a Mesher of the same names. Numbers and backgrounds (sampled_sizes) are announced on any
   /// rank. Functions, such as SlopedSizes, cannot be sent: limits with one are announced on all
@@ -87,11 +94,13 @@ class MpiMesher {
   /// std::runtime_error with its message. The mesh is then as before, on all ranks. The edits are
   /// discarded; after Error(cancelled) they stay.
   /// Where limits of size change everywhere, all ranks begin anew: a change of `own` parts then has
-  /// what a rank gives to another as removed, and what it gets as added.
+  /// what a rank gives to another as removed, and what it gets as added. Angles and the guard's
+  /// report are those of the whole change.
   Change<D> update(const RunControl& control = {}, Told told = Told::all);
 
-  /// The simplices of this rank, and the vertices that they need, in canonical form. Empty before
-  /// the first update, and on ranks beyond the number of points.
+  /// The simplices of this rank, edges and faces on features, each on one rank alone, and the
+  /// vertices that they need, in canonical form. Empty before the first update, and on ranks beyond
+  /// the number of points.
   [[nodiscard]] Mesh<D> own_mesh() const;
   /// Of all: the mesh on rank `to`, equal to that of one process; empty on others.
   [[nodiscard]] Mesh<D> gather(int to = 0) const;
@@ -103,13 +112,15 @@ class MpiMesher {
   /// The points of the last update, on any rank.
   [[nodiscard]] std::size_t size() const noexcept;
   [[nodiscard]] std::vector<GraphPoint<D>> points() const;
+  [[nodiscard]] std::vector<Polyline> lines() const;
+  [[nodiscard]] std::vector<Polygon> polygons() const;
   /// With the limits of size of the last update.
   [[nodiscard]] const Options<D>& options() const noexcept;
   [[nodiscard]] int rank() const noexcept;
   [[nodiscard]] int ranks() const noexcept;
   /// Of all: compares what ranks have told each other with what they have heard, and with what they
   /// know now. Returns what does not fit, on all ranks; empty: nothing, and then the mesh is
-  /// certain to be that of one process. Cost: O(vertices near borders), and 48 bytes for each two
+  /// certain to be that of one process. Cost: O(vertices near borders), and 64 bytes for each two
   /// tiles.
   [[nodiscard]] std::string certificate() const;
   void check_invariants() const;
