@@ -114,7 +114,7 @@ void require_fresh(MpiMesher<D>& m) {
 template <int D, class Announce>
 void check_failing_updates(MpiMesher<D>& m, const Announce& announce) {
   const auto update = [&] { static_cast<void>(m.update()); };
-  const mesher::Mesh<D> before = m.own_mesh();
+  const mesher::Mesh<D> before = m.gather();
   bool burnt = true;
   for (std::uint64_t count = 1; burnt; count += 1 + count / 12) {
     burnt = false;
@@ -123,7 +123,7 @@ void check_failing_updates(MpiMesher<D>& m, const Announce& announce) {
     burnt = least(burnt ? 0 : 1) == 0;
     demand(least(failed ? 0 : 1) == (failed ? 0u : 1u), "one has failed, and others have not");
     if (!failed) return;
-    demand(m.own_mesh() == before, "a failure leaves the mesh");
+    demand(m.gather() == before, "a failure leaves the mesh");
     m.check_invariants();
   }
   announce();

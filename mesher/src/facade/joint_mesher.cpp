@@ -384,15 +384,15 @@ Change<D> JointMesher<D>::run_anew(const RunControl& control, Told told, std::si
   StagedLines lines;
   StagedPolygons polygons;
   Joint fresh;
+  typename AnyState<D>::Accept accept;
   together(*peers_, [&] {
     points = state_->ran() ? edits_.all(*state_) : edits_.pending().sorted();
     lines = all_of(features_.lines()), polygons = all_of(features_.polygons());
     fresh = state_for(limits_.applied_to(options_), lines.has_edits(), polygons.has_edits(), tiles);
+    accept = [&](Change<D>& whole) { whole = told_anew(std::move(whole), fresh, told); };
   });
   Edits<D> edits{std::move(points), lines, polygons};
-  Change<D> change = fresh.state->first_run(std::move(edits), control, [&](Change<D>& whole) {
-    whole = told_anew(std::move(whole), fresh, told);
-  });
+  Change<D> change = fresh.state->first_run(std::move(edits), control, accept);
   state_ = std::move(fresh.state);
   part_ = fresh.part;
   return change;
@@ -529,10 +529,15 @@ Change<D> JointMesher<D>::told_anew(Change<D> whole, const Joint& fresh, Told to
     part = part_from_last(whole);
   });
   if (!state_->ran() || !fresh.part->has_features()) return told_of(std::move(part), told);
-  Change<D> all = told_of(part, Told::all);
-  fresh.state->judge_new(all);
+  Part same;
+  together(*peers_, [&] { same = part; });
+  Change<D> all = told_of(std::move(same), Told::all);
+  together(*peers_, [&] {
+    if (fresh.part->tells_all()) fresh.state->judge_new(all);
+  });
+  if (!fresh.part->tells_all()) fresh.state->judge_new(all);  // by all together
   if (told == Told::all) return all;
-  part.change.angles = all.angles, part.change.guard = all.guard;
+  part.change.angles = std::move(all.angles), part.change.guard = std::move(all.guard);
   return told_of(std::move(part), told);
 }
 

@@ -67,6 +67,15 @@ void add_trace(const TiledMesher<D>& tiles, MeshStats& stats) {
   }
 }
 
+/// The sizes of what the tiles of this process have: after they have begun anew with the same mesh,
+/// of which another part is theirs.
+template <int D>
+void count_own(MeshStats& stats, const TiledMesher<D>& tiles) noexcept {
+  stats.vertices = tiles.vertices();
+  stats.simplices = 0;
+  for (std::size_t t = 0; t < tiles.size(); ++t) stats.simplices += tiles[t].own_simplices();
+}
+
 /// The sizes of a mesh that is all new, and the seconds of the phases of a first run.
 template <int D>
 void set_first(MeshStats& stats, const Change<D>& change, const TiledMesher<D>& tiles) {

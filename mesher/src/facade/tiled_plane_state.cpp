@@ -240,10 +240,10 @@ Change<2> TiledPlaneState::propagate(const Edits<2>& edits, const RunControl& co
   std::shared_ptr<const CommonOrders<2>> common;
   bool is_judged = false;  // what is thrown then is the caller's
   const std::uint64_t before = tiles_->calls();
-  const Tiles::Ask ask = [&](Phase phase, std::uint64_t calls) {
-    return detail::report(control, {phase, calls, 0});
-  };
-  const auto last = [&](Tiles::Changes& changes) {
+  Tiles::Ask ask;
+  std::function<void(Tiles::Changes&)> last;
+  std::function<void()> run_tiles;
+  const auto end = [&](Tiles::Changes& changes) {
     require_leaves();
     together(peers_, [&] {
       change = change_of(changes);
@@ -255,7 +255,7 @@ Change<2> TiledPlaneState::propagate(const Edits<2>& edits, const RunControl& co
     if (accept) accept(change);
   };
   TogetherInside inside(peers_);
-  const std::function<void()> run_tiles = [&] {  // while all can be undone here
+  const auto begin = [&] {  // while all can be undone here
     inside.begin();
     together(peers_, [&] {
       make_room();
@@ -270,6 +270,10 @@ Change<2> TiledPlaneState::propagate(const Edits<2>& edits, const RunControl& co
   };
   try {
     options = edits.limits ? edits.limits->options : options_;
+    ask = [&control](Phase phase, std::uint64_t calls) {
+      return detail::report(control, {phase, calls, 0});
+    };
+    last = end, run_tiles = begin;
     ask_ = asking(control, Phase::update, &fail_stopped);
     make(edits);
   } catch (...) {
@@ -290,7 +294,10 @@ Change<2> TiledPlaneState::propagate(const Edits<2>& edits, const RunControl& co
     tiles_->take_back(news.by_tile, common);  // before records of ends are freed
     commit();
     forget();
-    if (tiles_->is_broken()) tiles_ = build({});  // the mesh is a function of what is there
+    if (tiles_->is_broken()) {  // the mesh is a function of what is there
+      tiles_ = build({});
+      count_own(stats_, *tiles_);
+    }
     in_tiles([&] { std::rethrow_exception(failure); }, !is_judged);
   }
   options_ = std::move(*options);

@@ -279,16 +279,16 @@ Change<3> TiledSpaceState::propagate(const Edits<3>& edits, const RunControl& co
   std::shared_ptr<const CommonOrders<3>> common;
   bool is_judged = false;  // what is thrown then is the caller's
   const std::uint64_t before = tiles_->calls();
-  const Tiles::Ask ask = [&](Phase phase, std::uint64_t calls) {
-    return detail::report(control, {phase, calls, 0});
-  };
+  Tiles::Ask ask;
+  std::function<void(Tiles::Changes&)> last;
+  std::function<void()> run_tiles;
   constexpr std::uint64_t kFew = 1 << 16;  // calls; more than that, and than
   constexpr std::uint64_t kTimes = 4;      // times those that there are, are too many
   std::uint64_t there = 0;
   for (std::size_t t = 0; t < tiles_->size(); ++t) there += (*tiles_)[t].engine().live_calls();
   tiles_->set_most_calls(kFew + kTimes * there);
   roles_before_.clear();
-  const auto last = [&](const Tiles::Changes& changes) {
+  const auto end = [&](Tiles::Changes& changes) {
     std::vector<Standing> own;
     together(peers_, [&] {
       std::vector<Point<3>> places;
@@ -306,7 +306,7 @@ Change<3> TiledSpaceState::propagate(const Edits<3>& edits, const RunControl& co
     if (accept) accept(change);
   };
   TogetherInside inside(peers_);
-  const std::function<void()> run_tiles = [&] {  // while all can be undone here
+  const auto begin = [&] {  // while all can be undone here
     inside.begin();
     together(peers_, [&] {
       world_->features.require_apart();
@@ -321,6 +321,10 @@ Change<3> TiledSpaceState::propagate(const Edits<3>& edits, const RunControl& co
   };
   try {
     options = edits.limits ? edits.limits->options : options_;
+    ask = [&control](Phase phase, std::uint64_t calls) {
+      return detail::report(control, {phase, calls, 0});
+    };
+    last = end, run_tiles = begin;
     ask_ = asking(control, Phase::update, &fail_stopped);
     make(edits);
   } catch (...) {
@@ -338,8 +342,8 @@ Change<3> TiledSpaceState::propagate(const Edits<3>& edits, const RunControl& co
     } catch (...) {
       failure = std::current_exception();
     }
-    std::uint64_t goes_on = tiles_->has_given_up() && !is_judged ? 0 : 1;
-    peers_.least({&goes_on, 1});
+    std::uint64_t goes_on = inside.has_begun() && tiles_->has_given_up() && !is_judged ? 0 : 1;
+    if (inside.has_begun()) peers_.least({&goes_on, 1});
     take_back(news);
     tiles_->take_back(news.by_tile, common);  // before records of points are freed
     forget();

@@ -326,7 +326,10 @@ Change<D> TiledState<D>::propagate(const Edits<D>& edits, const RunControl& cont
     together(peers_, [&] { take_back(std::move(moves)); });
     const Held held(features_);
     tiles_->take_back(by_tile, common);
-    if (tiles_->is_broken()) tiles_ = build({});  // the mesh is a function of the points
+    if (tiles_->is_broken()) {  // the mesh is a function of the points
+      tiles_ = build({});
+      count_own(stats_, *tiles_);
+    }
     in_tiles([] { throw; }, is_theirs && !is_judged);
   }
   for (const auto& node : moves.gone) points_.release(points_[node.mapped()]);

@@ -97,15 +97,18 @@ class TogetherInside {
   void begin() {
     began_ = true;
     if (!peers_.is_alone()) agree(peers_, nullptr);
+    all_began_ = true;
   }
   /// In a handler. Throws, before begin(): as agree().
   void give_up() {
     if (!began_ && !peers_.is_alone()) agree(peers_, std::current_exception());
   }
+  /// Whether begin() has come to its end, in all processes or in none.
+  [[nodiscard]] bool has_begun() const noexcept { return all_began_; }
 
  private:
   Peers& peers_;
-  bool began_ = false;
+  bool began_ = false, all_began_ = false;
 };
 
 template <int D>
