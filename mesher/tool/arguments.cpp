@@ -335,9 +335,7 @@ void add_mesh_options(CLI::App& command, MeshArguments& args, MeshGoes goes) {
 void add_threads_option(CLI::App& command, MeshArguments& args) {
   command
       .add_option("--threads", args.threads,
-                  "Mesh, and follow the edits, on N threads; the mesh is that of one. Lines and "
-                  "polygons in\n"
-                  "space take one thread with limits of size or --min-dihedral (default: 1)")
+                  "Mesh, and follow the edits, on N threads; the mesh is that of one (default: 1)")
       ->type_name("N");
 }
 

@@ -137,7 +137,6 @@ struct Options {
   std::conditional_t<D == 3, double, detail::InSpaceAlone> min_dihedral{};
   /// Of a Mesher: the box is cut into as many tiles, each with a thread. The mesh is that of one
   /// thread, to the last bit. The first update that brings a line or a polygon costs a first run.
-  /// Lines and polygons in space take one thread where there are limits of size or min_dihedral.
   /// From 1 to 256.
   int threads = 1;
 };

@@ -289,6 +289,7 @@ Change<2> TiledPlaneState::propagate(const Edits<2>& edits, const RunControl& co
     } catch (...) {
       failure = std::current_exception();
     }
+    const bool gives_up = inside.has_begun() && tiles_->has_given_up() && !is_judged;
     take_back(news);
     const Held held(world_->features);
     tiles_->take_back(news.by_tile, common);  // before records of ends are freed
@@ -298,6 +299,7 @@ Change<2> TiledPlaneState::propagate(const Edits<2>& edits, const RunControl& co
       tiles_ = build({});
       count_own(stats_, *tiles_);
     }
+    if (gives_up) throw NotInTilesYet();
     in_tiles([&] { std::rethrow_exception(failure); }, !is_judged);
   }
   options_ = std::move(*options);

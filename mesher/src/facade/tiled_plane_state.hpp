@@ -24,7 +24,7 @@ class TiledPlaneState final : public PlaneState, public PartOfMesh<2> {
   /// Throws: likewise.
   TiledPlaneState(const Options<2>& options, Peers& peers, std::size_t tiles = 0);
 
-  /// Both throw NotInTiles, too.
+  /// Both throw NotInTiles, too; propagate() also NotInTilesYet.
   Change<2> first_run(Edits<2> edits, const RunControl& control, const Accept& accept) override;
   Change<2> propagate(const Edits<2>& edits, const RunControl& control,
                       const Accept& accept) override;

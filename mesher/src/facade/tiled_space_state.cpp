@@ -282,11 +282,6 @@ Change<3> TiledSpaceState::propagate(const Edits<3>& edits, const RunControl& co
   Tiles::Ask ask;
   std::function<void(Tiles::Changes&)> last;
   std::function<void()> run_tiles;
-  constexpr std::uint64_t kFew = 1 << 16;  // calls; more than that, and than
-  constexpr std::uint64_t kTimes = 4;      // times those that there are, are too many
-  std::uint64_t there = 0;
-  for (std::size_t t = 0; t < tiles_->size(); ++t) there += (*tiles_)[t].engine().live_calls();
-  tiles_->set_most_calls(kFew + kTimes * there);
   roles_before_.clear();
   const auto end = [&](Tiles::Changes& changes) {
     std::vector<Standing> own;
@@ -342,15 +337,14 @@ Change<3> TiledSpaceState::propagate(const Edits<3>& edits, const RunControl& co
     } catch (...) {
       failure = std::current_exception();
     }
-    std::uint64_t goes_on = inside.has_begun() && tiles_->has_given_up() && !is_judged ? 0 : 1;
-    if (inside.has_begun()) peers_.least({&goes_on, 1});
+    const bool gives_up = inside.has_begun() && tiles_->has_given_up() && !is_judged;
     take_back(news);
     tiles_->take_back(news.by_tile, common);  // before records of points are freed
     forget();
     if (tiles_->is_broken()) tiles_ = build({});  // the mesh is a function of what is there
     set_touched();
     commit();
-    if (goes_on == 0) throw NotInTilesYet();
+    if (gives_up) throw NotInTilesYet();
     in_tiles([&] { std::rethrow_exception(failure); }, !is_judged);
   }
   for (const EdgeHandle e : news.edges_gone) edge_numbers_.take(e);

@@ -302,6 +302,7 @@ Change<D> TiledState<D>::propagate(const Edits<D>& edits, const RunControl& cont
   std::shared_ptr<const CommonOrders<D>> common;
   Options<D> options = edits.limits ? edits.limits->options : options_;
   bool is_judged = false;  // what is thrown then is the caller's
+  bool is_in_tiles = false;
   try {
     together(peers_, [&] {
       ask = [&](Phase phase, std::uint64_t calls) { return report(control, {phase, calls, 0}); };
@@ -319,8 +320,10 @@ Change<D> TiledState<D>::propagate(const Edits<D>& edits, const RunControl& cont
       }
     });
     const Held held(features_);
+    is_in_tiles = true;
     tiles_->update(by_tile, ask, last, common);
   } catch (...) {
+    const bool gives_up = is_in_tiles && tiles_->has_given_up() && !is_judged;
     const bool is_theirs =
         bounds_dihedrals(options_) || limits_.any() || (moves.limits && moves.limits->any());
     together(peers_, [&] { take_back(std::move(moves)); });
@@ -330,6 +333,7 @@ Change<D> TiledState<D>::propagate(const Edits<D>& edits, const RunControl& cont
       tiles_ = build({});
       count_own(stats_, *tiles_);
     }
+    if (gives_up) throw NotInTilesYet();
     in_tiles([] { throw; }, is_theirs && !is_judged);
   }
   for (const auto& node : moves.gone) points_.release(points_[node.mapped()]);

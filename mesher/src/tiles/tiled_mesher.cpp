@@ -104,6 +104,14 @@ void TiledMesher<D>::watch(const Ask& ask) {
 }
 
 template <int D>
+void TiledMesher<D>::bound_calls() noexcept {
+  constexpr std::uint64_t kFew = 1 << 16;  // more than that, and than
+  constexpr std::uint64_t kTimes = 4;      // times those that there are, are too many
+  most_calls_ = kFew;
+  for (const auto& tile : tiles_) most_calls_ += kTimes * tile->engine().live_calls();
+}
+
+template <int D>
 void TiledMesher<D>::unwatch() noexcept {
   ask_ = nullptr;
   stops_ = false;
@@ -411,6 +419,7 @@ void TiledMesher<D>::update(const Edits& edits, const Ask& ask,
                             const std::function<void(Changes&)>& last, const Common& common) {
   require_sound();
   phase_ = Phase::update;
+  bound_calls();
   attempt([&] { watch(ask); });
   agree();
   is_exact_ = false;

@@ -122,10 +122,10 @@ class TiledMesher {
   /// Those of the last update, which has thrown: by a run of their inverses. If that fails, too,
   /// or is not done, every further update throws sac::UsageError.
   void take_back(const Edits& edits, const Common& common = nullptr) noexcept;
-  /// An update of more calls ends as if `ask` had stopped it; has_given_up() says so. What does not
-  /// settle is sooner done anew, since a first run goes bucket by bucket.
-  void set_most_calls(std::uint64_t most) noexcept { most_calls_ = most; }
-  [[nodiscard]] bool has_given_up() const noexcept { return gives_up_; }
+  /// Whether the last update has been given up, in some process: it ends as if `ask` had stopped it
+  /// where it takes several times the calls that there are. What does not settle is sooner done
+  /// anew, since a first run goes bucket by bucket. Of all.
+  [[nodiscard]] bool has_given_up() { return least_of(gives_up_ ? 0 : 1) == 0; }
 
   /// Tiles of this process.
   [[nodiscard]] std::size_t size() const noexcept { return tiles_.size(); }
@@ -198,6 +198,7 @@ class TiledMesher {
   void number_vertices(std::size_t t, Part& part) const;
   void list_simplices(std::size_t t, std::vector<Part>& parts, Others& others) const;
   void require_sound() const;
+  void bound_calls() noexcept;
   void edit_all(const Edits& edits, const Common& common);
   void commit_lines() noexcept;
 

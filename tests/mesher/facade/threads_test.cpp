@@ -425,3 +425,30 @@ TEST_CASE("the certificate of two tiles sees each message that is lost") {
   std::size_t messages = 0;
   CHECK(noticed(all, 7, [&](std::size_t lost) { return fault_without(lost, messages); }) > 0.7);
 }
+
+TEST_CASE("an update of many times the calls that there are is given up, and done anew in tiles") {
+  const auto points = mesher::generate_points<2>(PointKind::uniform, 24000, 3);
+  BoxMesher<2> many(options_for<2>(points, 2)), one(options_for<2>(points, 1));
+  const auto insert = [&](std::size_t from, std::size_t to) {
+    for (auto* m : {&many, &one}) {
+      for (std::size_t i = from; i < to; ++i) m->insert(PointId(i + 1), points[i]);
+    }
+  };
+  insert(0, 100);
+  many.update(), one.update();
+  insert(100, points.size());
+  std::vector<mesher::Phase> phases;
+  RunControl control;
+  control.progress = [&](const Progress& p) {
+    if (phases.empty() || phases.back() != p.phase) phases.push_back(p.phase);
+    return true;
+  };
+  const Change<2> change = many.update(control), expected = one.update();
+  CHECK(is_same(change, expected));
+  CHECK(many.mesh() == one.mesh());
+  CHECK(support::is_tiled(many));
+  REQUIRE(phases.size() > 2);
+  CHECK(phases.front() == mesher::Phase::update);
+  CHECK(phases.back() != mesher::Phase::update);
+  many.check_invariants();
+}
