@@ -209,7 +209,7 @@ Change<2> TiledPlaneState::first_run(Edits<2> edits, const RunControl& control,
     };
   });
   in_tiles([&] { tiles_ = build(ask); });
-  require_leaves();
+  if (tiles_wanted_ != 1) require_leaves();  // one tile: one process has looked at them
   ran_ = true;
   Change<2> change;
   together(peers_, [&] { change = peers_.is_alone() ? whole_change(mesh()) : whole(); });

@@ -27,6 +27,7 @@ struct Lines {
   PslgKind kind;
   std::size_t n;
   std::uint64_t seed;
+  std::optional<double> angle{};
 };
 
 // Limits in boxes, sometimes everywhere.
@@ -41,7 +42,7 @@ void edit_limits(Twin<2>& twin, Edits& edits) {
 void check_lines(const Lines& lines, std::size_t processes, int threads, int steps,
                  double measure) {
   CAPTURE(static_cast<int>(lines.kind), lines.seed, processes, threads, measure);
-  const auto graph = mesher::generate_pslg({lines.kind, lines.n, lines.seed});
+  const auto graph = mesher::generate_pslg({lines.kind, lines.n, lines.seed, lines.angle});
   const auto run = [&](std::unique_ptr<Peers> peers, std::size_t self) {
     Options<2> options = in_square(threads);
     options.max_measure = measure;
@@ -122,6 +123,12 @@ TEST_CASE("with lines, in several processes every update is that of one") {
 TEST_CASE("with lines and limits of size, in several processes every update is that of one") {
   check_lines({PslgKind::segments, 30, 11}, 3, 1, 8, 0.002);
   check_lines({PslgKind::trees, 30, 12}, 2, 2, 8, 0.002);
+}
+TEST_CASE("lines at tiny angles, in several processes") {
+  for (const double angle : {1e-6, 0.001, 0.5, 5.0}) {
+    check_lines({PslgKind::bundle, 6, 3, angle}, 3, 1, 5, 0);
+    check_lines({PslgKind::fan, 6, 3, angle}, 2, 1, 5, 0);
+  }
 }
 TEST_CASE("soak: with lines, in several processes every update is that of one", "[.soak][soak]") {
   std::uint64_t seed = 20;
