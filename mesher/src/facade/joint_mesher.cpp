@@ -135,7 +135,7 @@ JointMesher<D>::JointMesher(std::unique_ptr<Peers> peers, const Options<D>& opti
     predicates::self_test();
     options_ = settled(options);
     box_ = mesh_box(options_);
-    Joint first = state_for(tileable(options_), false, false, 0);
+    Joint first = state_for(tileable(options_), false, 0);
     state_ = std::move(first.state);
     part_ = first.part;
   });
@@ -224,7 +224,7 @@ void JointMesher<D>::collect(const RunControl& control) {
   limit_all(limits);
 }
 
-// What is not there any more goes first, as far as it is of one process.
+// Lines of all processes, then polygons.
 template <int D>
 void JointMesher<D>::collect_features(std::vector<Unpacker>& rest) {
   std::vector<PolygonEdit> polygons;
@@ -359,19 +359,19 @@ void JointMesher<D>::require_none(const std::exception_ptr& other) {
 }
 
 template <int D>
-auto JointMesher<D>::state_for(const Options<D>& options, bool has_lines, bool has_polygons,
-                               std::size_t tiles) -> Joint {
+auto JointMesher<D>::state_for(const Options<D>& options, bool has_features, std::size_t tiles)
+    -> Joint {
   const auto make = [&]<class State>(std::type_identity<State>) {
     auto state = std::make_unique<State>(options, *peers_, tiles);
     const PartOfMesh<D>* part = state.get();
     return Joint{std::move(state), part};
   };
   if constexpr (D == 2) {
-    if (has_lines) return make(std::type_identity<TiledPlaneState>());
+    if (has_features) return make(std::type_identity<TiledPlaneState>());
   }
 #ifndef MESHER_PLANE_ONLY
   if constexpr (D == 3) {
-    if (has_lines || has_polygons) return make(std::type_identity<TiledSpaceState>());
+    if (has_features) return make(std::type_identity<TiledSpaceState>());
   }
 #endif
   return make(std::type_identity<TiledState<D>>());
@@ -388,7 +388,8 @@ Change<D> JointMesher<D>::run_anew(const RunControl& control, Told told, std::si
   together(*peers_, [&] {
     points = state_->ran() ? edits_.all(*state_) : edits_.pending().sorted();
     lines = all_of(features_.lines()), polygons = all_of(features_.polygons());
-    fresh = state_for(limits_.applied_to(options_), lines.has_edits(), polygons.has_edits(), tiles);
+    fresh =
+        state_for(limits_.applied_to(options_), lines.has_edits() || polygons.has_edits(), tiles);
     accept = [&](Change<D>& whole) { whole = told_anew(std::move(whole), fresh, told); };
   });
   Edits<D> edits{std::move(points), lines, polygons};

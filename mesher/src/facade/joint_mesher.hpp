@@ -143,8 +143,7 @@ class JointMesher {
   void announce(LineEdit edit);
   void announce(PolygonEdit edit);
   void collect_features(std::vector<Unpacker>& rest);
-  [[nodiscard]] Joint state_for(const Options<D>& options, bool has_lines, bool has_polygons,
-                                std::size_t tiles);
+  [[nodiscard]] Joint state_for(const Options<D>& options, bool has_features, std::size_t tiles);
   void require_equal_options();
   void require_equal(const Packer& mine, const char* what);
   void collect(const RunControl& control);
