@@ -300,7 +300,7 @@ Change<D> TiledState<D>::propagate(const Edits<D>& edits, const RunControl& cont
   std::function<void(TileChanges&)> last;
   TileEdits by_tile;
   std::shared_ptr<const CommonOrders<D>> common;
-  Options<D> options = edits.limits ? edits.limits->options : options_;
+  std::optional<Options<D>> options;
   bool is_judged = false;  // what is thrown then is the caller's
   bool is_in_tiles = false;
   try {
@@ -313,6 +313,7 @@ Change<D> TiledState<D>::propagate(const Edits<D>& edits, const RunControl& cont
         is_judged = true;
         if (accept) accept(change);
       };
+      options = edits.limits ? edits.limits->options : options_;
       begin_limits(edits, moves);
       by_tile = make(edits.points, moves);
       if (!moves.common.is_empty()) {
@@ -339,7 +340,7 @@ Change<D> TiledState<D>::propagate(const Edits<D>& edits, const RunControl& cont
   for (const auto& node : moves.gone) points_.release(points_[node.mapped()]);
   if (moves.limits) {
     limits_ = std::move(*moves.limits);
-    options_ = std::move(options);
+    options_ = std::move(*options);
   }
   growth->add_to(stats_);
   return change;
