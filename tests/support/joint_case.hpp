@@ -38,6 +38,17 @@ std::string said_by(Act&& act) {
   return {};
 }
 
+/// The vertices of a part are vertices of the whole mesh, of the same kinds.
+template <int D>
+void check_part(const mesher::Mesh<D>& own, const mesher::Mesh<D>& whole, const std::string& when) {
+  for (std::size_t i = 0; i < own.vertices.size(); ++i) {
+    const auto at = std::lower_bound(whole.vertices.begin(), whole.vertices.end(), own.vertices[i]);
+    demand(at != whole.vertices.end() && *at == own.vertices[i], when + ": a vertex of a part");
+    const auto index = static_cast<std::size_t>(at - whole.vertices.begin());
+    demand(whole.kinds[index] == own.kinds[i], when + ": the kind of a vertex of a part");
+  }
+}
+
 template <int D>
 mesher::Options<D> joint_options(const std::vector<mesher::Point<D>>& points, int threads = 1) {
   mesher::Options<D> options;
@@ -119,18 +130,7 @@ class JointCase {
     const mesher::Mesh<D> whole = one_.mesh();
     const mesher::Mesh<D> gathered = joint_.gather();
     demand(gathered == (self_ == 0 ? whole : mesher::Mesh<D>()), when + ": the mesh");
-    const mesher::Mesh<D> own = joint_.own_mesh();
-    std::vector<char> is_used(own.vertices.size());
-    for (const auto& s : own.simplices) {
-      for (const std::uint32_t corner : s) is_used[corner] = true;
-    }
-    for (std::size_t i = 0; i < own.vertices.size(); ++i) {
-      const auto at =
-          std::lower_bound(whole.vertices.begin(), whole.vertices.end(), own.vertices[i]);
-      demand(at != whole.vertices.end() && *at == own.vertices[i], when + ": a vertex of a part");
-      const auto index = static_cast<std::size_t>(at - whole.vertices.begin());
-      demand(whole.kinds[index] == own.kinds[i], when + ": the kind of a vertex of a part");
-    }
+    check_part(joint_.own_mesh(), whole, when);
     const mesher::MeshStats stats = joint_.stats(), expected = one_.stats();
     demand(stats.vertices == expected.vertices, when + ": number of vertices");
     demand(stats.simplices == expected.simplices, when + ": number of simplices");

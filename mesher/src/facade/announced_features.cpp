@@ -11,10 +11,26 @@
 
 namespace mesher::detail {
 
+namespace {
+
+[[noreturn]] void refuse(ErrorCode code, const std::string& why, const mesher::Feature& feature) {
+  throw Error(code, why, {}, {feature});
+}
+
+template <class Key, class Value>
+void take(Staged<Key, Value>& staged, const std::string& what, const Key& id) {
+  if (staged.find(id) == nullptr) {
+    refuse(ErrorCode::unknown_id, what + id_text(id) + " is not there", id);
+  }
+  staged.set(id, std::nullopt);
+}
+
+}  // namespace
+
 template <int D>
 void AnnouncedFeatures<D>::insert_line(const State& state, LineId id, const LinePoints& points) {
   const auto refuse = [&](ErrorCode code, const std::string& why) {
-    throw Error(code, why, {}, {mesher::Feature(id)});
+    detail::refuse(code, why, id);
   };
   if (rule_ != Rule::radius_edge) {
     refuse(ErrorCode::bad_option, "segments need the rule radius-edge");
@@ -32,17 +48,13 @@ void AnnouncedFeatures<D>::insert_line(const State& state, LineId id, const Line
 
 template <int D>
 void AnnouncedFeatures<D>::remove_line(LineId id) {
-  if (lines_.find(id) == nullptr) {
-    throw Error(ErrorCode::unknown_id, "line " + id_text(id) + " is not there", {},
-                {mesher::Feature(id)});
-  }
-  lines_.set(id, std::nullopt);
+  take(lines_, "line ", id);
 }
 
 template <int D>
 void AnnouncedFeatures<D>::insert_polygon(const State& state, const mesher::Polygon& polygon) {
   const auto refuse = [&](ErrorCode code, const std::string& why) {
-    throw Error(code, why, {}, {mesher::Feature(polygon.id)});
+    detail::refuse(code, why, polygon.id);
   };
   if (D == 2) refuse(ErrorCode::bad_option, "polygons are for space");
   if (rule_ != Rule::radius_edge) {
@@ -59,11 +71,7 @@ void AnnouncedFeatures<D>::insert_polygon(const State& state, const mesher::Poly
 
 template <int D>
 void AnnouncedFeatures<D>::remove_polygon(PolygonId id) {
-  if (polygons_.find(id) == nullptr) {
-    throw Error(ErrorCode::unknown_id, "polygon " + id_text(id) + " is not there", {},
-                {mesher::Feature(id)});
-  }
-  polygons_.set(id, std::nullopt);
+  take(polygons_, "polygon ", id);
 }
 
 template class AnnouncedFeatures<2>;

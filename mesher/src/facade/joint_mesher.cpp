@@ -514,7 +514,7 @@ Change<D> JointMesher<D>::told_of_all(Change<D> change, Told told) const {
   peers_->sum({&change.calls.executed, 1});
   Change<D> all;
   together(*peers_, [&] {
-    if (told == Told::own) all = own_part(change, tiles());
+    if (told == Told::own) all = own_part(std::move(change), tiles());
     if (told == Told::all || (told == Told::first && peers_->self() == 0)) all = std::move(change);
   });
   return all;
@@ -526,17 +526,14 @@ template <int D>
 Change<D> JointMesher<D>::told_anew(Change<D> whole, const Joint& fresh, Told told) const {
   Part part;
   together(*peers_, [&] {
-    if (fresh.part->tells_all()) whole = own_part(whole, fresh.part->tiles());
+    if (fresh.part->tells_all()) whole = own_part(std::move(whole), fresh.part->tiles());
     part = part_from_last(whole);
   });
   if (!state_->ran() || !fresh.part->has_features()) return told_of(std::move(part), told);
   Part same;
   together(*peers_, [&] { same = part; });
   Change<D> all = told_of(std::move(same), Told::all);
-  together(*peers_, [&] {
-    if (fresh.part->tells_all()) fresh.state->judge_new(all);
-  });
-  if (!fresh.part->tells_all()) fresh.state->judge_new(all);  // by all together
+  fresh.state->judge_new(all);
   if (told == Told::all) return all;
   part.change.angles = std::move(all.angles), part.change.guard = std::move(all.guard);
   return told_of(std::move(part), told);

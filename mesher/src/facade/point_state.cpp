@@ -138,13 +138,18 @@ void PointState<D>::post_all() {
 }
 
 template <int D>
-Change<D> PointState<D>::first_run(Edits<D> edits, const RunControl& control,
-                                   const Accept& accept) {
+void PointState<D>::begin_first(Edits<D>& edits, const RunControl& control) {
   ids_.reserve(edits.points.size());
   ask_ = asking(control, Phase::quadtree, &fail_stopped);
   for (const auto& edit : edits.points) add_first(edit);
   edits.points = PointEdits<D>();  // the run needs the memory
   add_features_first(edits);
+}
+
+template <int D>
+Change<D> PointState<D>::first_run(Edits<D> edits, const RunControl& control,
+                                   const Accept& accept) {
+  begin_first(edits, control);
   post_all();
   RunMeter<sac::Scope, D> phases(*world_, control, ids_.size());
   const auto meter = [&](const sac::Progress& p) { return phases(p.executed); };

@@ -121,7 +121,8 @@ class PointState : public AnyState<D> {
   void report(Change<D>& change);
   /// Ends an update that has made these edits, and has changed this in the mesh.
   void end_update(const PointEdits<D>& edits, const Change<D>& change) noexcept;
-  void add_first(const typename Pending<D>::Edit& edit);
+  /// Begins a first run: inserts the features. Frees the edits of points.
+  void begin_first(Edits<D>& edits, const RunControl& control);
   /// Makes edits in the engine. Throws: Error, and then has made none.
   void make(const Edits<D>& edits);
   /// So that rename() cannot fail.
@@ -133,6 +134,7 @@ class PointState : public AnyState<D> {
   void commit() noexcept;
 
  private:
+  void add_first(const typename Pending<D>::Edit& edit);
   void post_all();
   Vertex<D>& claim(const Point<D>& p);
   Vertex<D>& add(const Point<D>& p);

@@ -54,17 +54,14 @@ auto TiledPlaneState::build(const Tiles::Ask& ask) -> std::unique_ptr<Tiles> {
   Tiles::Edits by_tile;
   std::shared_ptr<CommonOrders<2>> common;
   together(peers_, [&] {
-    const auto threads = static_cast<std::size_t>(options_.threads);
     std::vector<Point<2>> places;
     pool().for_each([&](const Vertex<2>& v) {
       if (!v.boundary && world_->features.has(v)) places.push_back(v.p);
     });
-    if (!peers_.is_alone()) std::sort(places.begin(), places.end());  // not by handles
-    places = places_of_work(std::move(places), world_->limits, box_, options_.domain);
     const WholeInput<2> whole{&pool(), &world_->features.tree(), nullptr,
                               peers_.is_alone() ? nullptr : &numbers_};
-    const std::size_t wanted = tiles_wanted_ != 0 ? tiles_wanted_ : threads * peers_.size();
-    tiles = std::make_unique<Tiles>(options_, box_, places, wanted, threads, peers_, whole);
+    tiles =
+        make_tiles(std::move(places), tiles_wanted_, options_, box_, world_->limits, peers_, whole);
     by_tile.resize(tiles->size());
     told_points_.assign(pool().end_of_handles(), std::nullopt);
     pool().for_each([&](const Vertex<2>& v) {
@@ -99,7 +96,7 @@ void TiledPlaneState::number(std::vector<SegmentHandle> segments) {
   if (peers_.is_alone()) return;
   const auto ends = [&](SegmentHandle h) {
     const Segment& s = world_->segments.pool()[h];
-    return std::pair(pool()[s.a].p, pool()[s.b].p);
+    return std::pair(s.place_a, s.place_b);  // in order
   };
   std::sort(segments.begin(), segments.end(),
             [&](SegmentHandle s, SegmentHandle t) { return ends(s) < ends(t); });
@@ -186,12 +183,7 @@ void TiledPlaneState::take_back(const News& news) noexcept {
 
 Change<2> TiledPlaneState::first_run(Edits<2> edits, const RunControl& control,
                                      const Accept& accept) {
-  together(peers_, [&] {
-    ids_.reserve(edits.points.size());
-    ask_ = asking(control, Phase::quadtree, &fail_stopped);
-    for (const auto& edit : edits.points) add_first(edit);
-    add_features_first(edits);
-  });
+  together(peers_, [&] { begin_first(edits, control); });
   in_tiles([&] {
     together(peers_, [&] {
       engine_->run<split_all>();
@@ -202,11 +194,7 @@ Change<2> TiledPlaneState::first_run(Edits<2> edits, const RunControl& control,
   together(peers_, [&] {
     commit();
     find_levels(*world_, options_.threads);
-    ask = [&, points = ids_.size()](Phase phase, std::uint64_t calls) {
-      const std::uint64_t of =
-          phase == Phase::quadtree ? std::max<std::uint64_t>(points, calls) : 0;
-      return detail::report(control, {phase, calls, of});
-    };
+    ask = asks_first(control, ids_.size());
   });
   in_tiles([&] { tiles_ = build(ask); });
   if (tiles_wanted_ != 1) require_leaves();  // one tile: one process has looked at them
@@ -268,27 +256,17 @@ Change<2> TiledPlaneState::propagate(const Edits<2>& edits, const RunControl& co
     const Held held(world_->features);
     tiles_->update(news.by_tile, ask, last, common);
   };
-  try {
+  inside.before([&] {
     options = edits.limits ? edits.limits->options : options_;
-    ask = [&control](Phase phase, std::uint64_t calls) {
-      return detail::report(control, {phase, calls, 0});
-    };
+    ask = asks_update(control);
     last = end, run_tiles = begin;
     ask_ = asking(control, Phase::update, &fail_stopped);
     make(edits);
-  } catch (...) {
-    inside.give_up();
-    throw;
-  }
+  });
   try {
     engine_->propagate(run_tiles);
   } catch (...) {
-    std::exception_ptr failure = std::current_exception();
-    try {
-      inside.give_up();
-    } catch (...) {
-      failure = std::current_exception();
-    }
+    const std::exception_ptr failure = inside.failure();
     const bool gives_up = inside.has_begun() && tiles_->has_given_up() && !is_judged;
     take_back(news);
     const Held held(world_->features);

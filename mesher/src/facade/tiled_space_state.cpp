@@ -52,17 +52,14 @@ auto TiledSpaceState::build(const Tiles::Ask& ask) -> std::unique_ptr<Tiles> {
   Tiles::Edits by_tile;
   std::shared_ptr<CommonOrders<3>> common;
   together(peers_, [&] {
-    const auto threads = static_cast<std::size_t>(options_.threads);
     std::vector<Point<3>> places;
     pool().for_each([&](const Vertex<3>& v) {
       if (!v.boundary && world_->features.has(v)) places.push_back(v.p);
     });
-    if (!peers_.is_alone()) std::sort(places.begin(), places.end());  // not by handles
-    places = places_of_work(std::move(places), world_->limits, box_, options_.domain);
     WholeInput<3> whole{nullptr, nullptr, &store()};
     if (!peers_.is_alone()) whole.lines = &edge_numbers_, whole.polygons = &polygon_numbers_;
-    const std::size_t wanted = tiles_wanted_ != 0 ? tiles_wanted_ : threads * peers_.size();
-    tiles = std::make_unique<Tiles>(options_, box_, places, wanted, threads, peers_, whole);
+    tiles =
+        make_tiles(std::move(places), tiles_wanted_, options_, box_, world_->limits, peers_, whole);
     by_tile.resize(tiles->size());
     common = std::make_shared<CommonOrders<3>>();
     FeatureOrders& orders = common->features_in_space;
@@ -98,8 +95,7 @@ void TiledSpaceState::number(const FeatureOrders& come) {
   }
   const auto ends = [&](EdgeHandle h) {
     const Edge& e = store().edges()[h];
-    const auto& [low, high] = std::minmax(pool()[e.a].p, pool()[e.b].p);
-    return std::pair(low, high);
+    return std::pair(e.place_a, e.place_b);  // in order
   };
   std::sort(edges.begin(), edges.end(),
             [&](EdgeHandle e, EdgeHandle f) { return ends(e) < ends(f); });
@@ -224,12 +220,7 @@ void TiledSpaceState::set_touched() noexcept {
 
 Change<3> TiledSpaceState::first_run(Edits<3> edits, const RunControl& control,
                                      const Accept& accept) {
-  together(peers_, [&] {
-    ids_.reserve(edits.points.size());
-    ask_ = asking(control, Phase::quadtree, &fail_stopped);
-    for (const auto& edit : edits.points) add_first(edit);
-    add_features_first(edits);
-  });
+  together(peers_, [&] { begin_first(edits, control); });
   in_tiles([&] {
     together(peers_, [&] {
       engine_->run<drain_features>();
@@ -240,11 +231,7 @@ Change<3> TiledSpaceState::first_run(Edits<3> edits, const RunControl& control,
   together(peers_, [&] {
     commit();
     find_levels(*world_, options_.threads);
-    ask = [&, points = ids_.size()](Phase phase, std::uint64_t calls) {
-      const std::uint64_t of =
-          phase == Phase::quadtree ? std::max<std::uint64_t>(points, calls) : 0;
-      return detail::report(control, {phase, calls, of});
-    };
+    ask = asks_first(control, ids_.size());
   });
   in_tiles([&] { tiles_ = build(ask); });
   std::vector<Standing> own;
@@ -314,29 +301,19 @@ Change<3> TiledSpaceState::propagate(const Edits<3>& edits, const RunControl& co
     });
     tiles_->update(news.by_tile, ask, last, common);
   };
-  try {
+  inside.before([&] {
     options = edits.limits ? edits.limits->options : options_;
-    ask = [&control](Phase phase, std::uint64_t calls) {
-      return detail::report(control, {phase, calls, 0});
-    };
+    ask = asks_update(control);
     last = end, run_tiles = begin;
     ask_ = asking(control, Phase::update, &fail_stopped);
     make(edits);
-  } catch (...) {
-    inside.give_up();
-    throw;
-  }
+  });
   world_->most_records =
       std::max(world_->most_vertices, pool().size() - vertices().trials() + world_->most_vertices);
   try {
     engine_->propagate(run_tiles);
   } catch (...) {
-    std::exception_ptr failure = std::current_exception();
-    try {
-      inside.give_up();
-    } catch (...) {
-      failure = std::current_exception();
-    }
+    const std::exception_ptr failure = inside.failure();
     const bool gives_up = inside.has_begun() && tiles_->has_given_up() && !is_judged;
     take_back(news);
     tiles_->take_back(news.by_tile, common);  // before records of points are freed
@@ -364,6 +341,10 @@ MeshStats TiledSpaceState::stats() const {
   s.calls = s.edges = 0;
   if (tiles_ != nullptr) add_trace(*tiles_, s);
   return s;
+}
+
+void TiledSpaceState::judge_new(Change<3>& change) const {
+  together(peers_, [&] { SpaceState::judge_new(change); });
 }
 
 Change<3> TiledSpaceState::whole() const { return own_part(whole_change(mesh()), *tiles_); }

@@ -43,6 +43,8 @@ class TiledSpaceState final : public SpaceState, public PartOfMesh<3> {
   [[nodiscard]] const TiledMesher<3>& tiles() const noexcept override { return *tiles_; }
   [[nodiscard]] Mesh<3> own_mesh() const override;
   [[nodiscard]] Change<3> whole() const override;
+  /// Of all.
+  void judge_new(Change<3>& change) const override;
   [[nodiscard]] bool tells_all() const noexcept override { return true; }
 
  private:

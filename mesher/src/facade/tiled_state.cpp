@@ -33,40 +33,6 @@ bool may_have_lines_tiled(const Options<2>& options, const Edits<2>& edits) {
 }
 
 template <int D>
-bool changes_all_limits(const Edits<D>& edits) noexcept {
-  if (!edits.limits) return false;
-  const Box<D>& domain = edits.limits->options.domain;
-  const auto& where = edits.limits->where;
-  return std::any_of(where.begin(), where.end(),
-                     [&](const Box<D>& box) { return contains(box, domain); });
-}
-
-template <int D>
-Change<D> own_part(const Change<D>& change, const TiledMesher<D>& tiles) {
-  Change<D> own = change;
-  const auto keep = [&](auto& all, auto&& place_of) {
-    std::erase_if(all, [&](const auto& one) { return !tiles.own_tile(place_of(one)); });
-  };
-  own.vertices_added.clear(), own.kinds_added.clear();
-  for (std::size_t i = 0; i < change.vertices_added.size(); ++i) {
-    if (!tiles.own_tile(change.vertices_added[i])) continue;
-    own.vertices_added.push_back(change.vertices_added[i]);
-    own.kinds_added.push_back(change.kinds_added[i]);
-  }
-  keep(own.vertices_removed, [](const Point<D>& p) { return p; });
-  keep(own.kinds_changed, [](const auto& k) { return k.vertex; });
-  const auto least = [](const auto& corners) {
-    return *std::min_element(corners.begin(), corners.end());
-  };
-  keep(own.simplices_added, least), keep(own.simplices_removed, least);
-  keep(own.edges_added, [](const auto& e) { return e.low; });
-  keep(own.edges_removed, [](const auto& e) { return e.low; });
-  const auto least_of = [&](const auto& f) { return least(f.corners); };
-  keep(own.faces_added, least_of), keep(own.faces_removed, least_of);
-  return own;
-}
-
-template <int D>
 TiledState<D>::TiledState(const Options<D>& options)
     : options_(options),
       peers_(alone_),
@@ -140,16 +106,13 @@ auto TiledState<D>::build(const typename TiledMesher<D>::Ask& ask)
   std::unique_ptr<TiledMesher<D>> tiles;
   TileEdits by_tile;
   together(peers_, [&] {
-    const auto threads = static_cast<std::size_t>(options_.threads);
     std::vector<Point<D>> places;
     places.reserve(ids_.size());
     points_.for_each([&](const Vertex<D>& v) { places.push_back(v.p); });
-    places = places_of_work(std::move(places), limits_, box_, options_.domain);
-    const std::size_t wanted = tiles_wanted_ != 0 ? tiles_wanted_ : threads * peers_.size();
-    tiles = std::make_unique<TiledMesher<D>>(options_, box_, places, wanted, threads, peers_,
-                                             WholeInput<D>{nullptr, &features_});
+    tiles = make_tiles(std::move(places), tiles_wanted_, options_, box_, limits_, peers_,
+                       WholeInput<D>{nullptr, &features_});
     by_tile.resize(tiles->size());
-    find_levels(threads);
+    find_levels(static_cast<std::size_t>(options_.threads));
     points_.for_each([&](Vertex<D>& v) {
       names_[v.self].level = v.level;
       const auto tile = tiles->own_tile(v.p);
@@ -170,11 +133,7 @@ Change<D> TiledState<D>::first_run(Edits<D> edits, const RunControl& control,
     for (const auto& edit : edits.points) {
       features_.insert_only(points_[add_point(edit.id, *edit.to)]);
     }
-    ask = [&, points = ids_.size()](Phase phase, std::uint64_t calls) {
-      const std::uint64_t of =
-          phase == Phase::quadtree ? std::max<std::uint64_t>(points, calls) : 0;
-      return report(control, {phase, calls, of});
-    };
+    ask = asks_first(control, ids_.size());
   });
   in_tiles([&] { tiles_ = build(ask); }, limits_.any() || bounds_dihedrals(options_));
   Change<D> change;
@@ -305,7 +264,7 @@ Change<D> TiledState<D>::propagate(const Edits<D>& edits, const RunControl& cont
   bool is_in_tiles = false;
   try {
     together(peers_, [&] {
-      ask = [&](Phase phase, std::uint64_t calls) { return report(control, {phase, calls, 0}); };
+      ask = asks_update(control);
       last = [&](TileChanges& changes) {
         together(peers_, [&] { change = change_of<D>(changes); });
         growth.emplace(change);
@@ -376,14 +335,10 @@ void TiledState<D>::check_invariants() const {
   SAC_INVARIANT(stats_.simplices == simplices);
 }
 
-template Change<2> own_part(const Change<2>&, const TiledMesher<2>&);
 template bool may_be_tiled(const Options<2>&, const Edits<2>&);
-template bool changes_all_limits(const Edits<2>&) noexcept;
 template class TiledState<2>;
 #ifndef MESHER_PLANE_ONLY
-template Change<3> own_part(const Change<3>&, const TiledMesher<3>&);
 template bool may_be_tiled(const Options<3>&, const Edits<3>&);
-template bool changes_all_limits(const Edits<3>&) noexcept;
 template class TiledState<3>;
 #endif
 

@@ -6,110 +6,21 @@
 // process.
 #pragma once
 
-#include <exception>
 #include <memory>
 #include <optional>
 #include <unordered_map>
 #include <vector>
 
-#include "facade/any_state.hpp"
+#include "facade/in_tiles.hpp"
 #include "index/feature_tree.hpp"
-#include "tiles/on_threads.hpp"
-#include "tiles/tiled_mesher.hpp"
 
 namespace mesher::detail {
 
-/// What is thrown where tiles have failed, or cannot tell: one thread does it, or says why not.
-struct NotInTiles {};
-/// The same where tiles are sooner done with a first run.
-struct NotInTilesYet {};
-/// Calls act(); what tiles say of errors `is_theirs`, and not what one thread would.
-template <class Act>
-void in_tiles(Act&& act, bool is_theirs = true) {
-  try {
-    act();
-  } catch (const Error&) {
-    if (!is_theirs) throw;
-    throw NotInTiles();
-  }
-}
-
-/// Whether slivers are split.
-template <int D>
-[[nodiscard]] bool bounds_dihedrals(const Options<D>& options) noexcept {
-  if constexpr (D == 3) return options.min_dihedral != 0;
-  return false;
-}
-/// Whether a mesher with these options, that begins with these edits, can have tiles at all.
-template <int D>
-[[nodiscard]] bool may_have_tiles(const Options<D>& options, const Edits<D>& edits) noexcept {
-  return options.threads > 1 && options.rule == Rule::radius_edge && edits.points.size() > 1 &&
-         !options.record_weights;
-}
-/// Finds how crowded each vertex of before refinement is, by parts of the pool, on so many threads.
-template <int D>
-void find_levels(World<sac::Scope, D>& world, int threads) {
-  const auto parts = static_cast<std::size_t>(threads);
-  on_threads(parts, [&](std::size_t part) {
-    typename FeatureTree<D>::Path path;
-    world.vertices.pool().for_each_in(part, parts, [&](Vertex<D>& v) {
-      if (!v.boundary && world.features.has(v)) world.features.find_level(v, path);
-    });
-  });
-}
 /// Whether a mesher that begins with these edits may be in tiles.
 template <int D>
 [[nodiscard]] bool may_be_tiled(const Options<D>& options, const Edits<D>& edits);
 /// The same with lines in the plane (tiled_plane_state.hpp).
 [[nodiscard]] bool may_have_lines_tiled(const Options<2>& options, const Edits<2>& edits);
-/// Whether limits of size are edited everywhere: to follow that takes several times a first run.
-template <int D>
-[[nodiscard]] bool changes_all_limits(const Edits<D>& edits) noexcept;
-
-/// What several processes have of one mesh that they keep together, each with a state of the whole
-/// input. Functions that are said to be of all are called by all of them, in the same order.
-template <int D>
-class PartOfMesh {
- public:
-  virtual ~PartOfMesh() = default;
-  [[nodiscard]] virtual const TiledMesher<D>& tiles() const noexcept = 0;
-  /// The simplices of this process, and their vertices.
-  [[nodiscard]] virtual Mesh<D> own_mesh() const = 0;
-  /// That of this process from nothing: its vertices, its simplices and what is on these.
-  [[nodiscard]] virtual Change<D> whole() const = 0;
-  /// Whether changes, as accept() and the caller see them, are those of all processes.
-  [[nodiscard]] virtual bool tells_all() const noexcept { return false; }
-  /// Whether there may be lines or polygons.
-  [[nodiscard]] virtual bool has_features() const noexcept { return true; }
-};
-
-/// What of a change is this process's: each simplex, edge and face is of the process that has its
-/// least corner. Angles, the guard's report and counts stay.
-template <int D>
-[[nodiscard]] Change<D> own_part(const Change<D>& change, const TiledMesher<D>& tiles);
-
-/// Begins what all processes do together inside an edit of one of them: who fails before, and says
-/// so by give_up(), lets all fail.
-class TogetherInside {
- public:
-  explicit TogetherInside(Peers& peers) : peers_(peers) {}
-  /// Of all. Throws: what one has given up for.
-  void begin() {
-    began_ = true;
-    if (!peers_.is_alone()) agree(peers_, nullptr);
-    all_began_ = true;
-  }
-  /// In a handler. Throws, before begin(): as agree().
-  void give_up() {
-    if (!began_ && !peers_.is_alone()) agree(peers_, std::current_exception());
-  }
-  /// Whether begin() has come to its end, in all processes or in none.
-  [[nodiscard]] bool has_begun() const noexcept { return all_began_; }
-
- private:
-  Peers& peers_;
-  bool began_ = false, all_began_ = false;
-};
 
 template <int D>
 class TiledState final : public AnyState<D>, public PartOfMesh<D> {

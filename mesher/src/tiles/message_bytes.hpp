@@ -26,26 +26,27 @@ template <int D>
   return turn;
 }
 
-/// A role by the numbers of features, and by this process's handles.
-template <int D>
-[[nodiscard]] Role numbered(Role role, const WholeInput<D>& whole) {
+/// A role by other names of features: by rename(numbers, name), of lines and of polygons, if there
+/// are several processes.
+template <int D, class Rename>
+[[nodiscard]] Role renamed(Role role, const WholeInput<D>& whole, Rename&& rename) {
   if (role.on == 0 || whole.lines == nullptr) return role;
   if (D == 3 && polygon_of(role) != 0) {
-    role.on = whole.polygons->of(polygon_of(role)) | kOnPolygon;
+    role.on = rename(*whole.polygons, polygon_of(role)) | kOnPolygon;
   } else {
-    role.on = whole.lines->of(role.on);
+    role.on = rename(*whole.lines, role.on);
   }
   return role;
 }
+/// By the numbers of features; by this process's handles.
 template <int D>
-[[nodiscard]] Role with_handle(Role role, const WholeInput<D>& whole) {
-  if (role.on == 0 || whole.lines == nullptr) return role;
-  if (D == 3 && polygon_of(role) != 0) {
-    role.on = whole.polygons->handle(polygon_of(role)) | kOnPolygon;
-  } else {
-    role.on = whole.lines->handle(role.on);
-  }
-  return role;
+[[nodiscard]] Role numbered(const Role& role, const WholeInput<D>& whole) {
+  return renamed(role, whole, [](const FeatureNumbers& n, std::uint32_t h) { return n.of(h); });
+}
+template <int D>
+[[nodiscard]] Role with_handle(const Role& role, const WholeInput<D>& whole) {
+  return renamed(role, whole,
+                 [](const FeatureNumbers& n, std::uint32_t number) { return n.handle(number); });
 }
 
 /// A place on a feature, which is named by its number among all processes', not by a handle.

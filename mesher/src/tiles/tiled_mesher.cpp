@@ -442,6 +442,7 @@ void TiledMesher<D>::update(const Edits& edits, const Ask& ask,
 // as it was.
 template <int D>
 void TiledMesher<D>::take_back(const Edits& edits, const Common& common) noexcept {
+  gives_up_ = false;
   if (!std::exchange(is_edited_, false)) return;
   if (least_of(is_exact_ ? 1 : 0) == 0) return;
   unwatch();
@@ -589,12 +590,18 @@ Mesh<D> TiledMesher<D>::mesh(const IsInput& is_input, const LineOf& line_of) con
   });
 }
 
+// What each has said, and heard, is looked up once.
 template <int D>
 std::string TiledMesher<D>::certificate_fault() const {
-  for (const auto& one : tiles_) {
-    for (const auto& other : tiles_) {
-      if (one == other) continue;
-      if (std::string fault = one->fault_with(*other); !fault.empty()) return fault;
+  std::vector<std::vector<KnownOf>> said, heard;
+  for (const auto& tile : tiles_) said.push_back(tile->said()), heard.push_back(tile->heard());
+  for (std::size_t a = 0; a < tiles_.size(); ++a) {
+    for (std::size_t b = 0; b < tiles_.size(); ++b) {
+      if (a == b) continue;
+      const std::size_t from = first_ + a, to = first_ + b;
+      std::string fault = difference(said[a][to], heard[b][from], from, to);
+      if (fault.empty()) fault = tiles_[b]->answers_fault(from);
+      if (!fault.empty()) return fault;
     }
   }
   return {};

@@ -71,8 +71,8 @@ class MpiMesher {
   void insert(PointId id, const Point<D>& point);
   void remove(PointId id);
   void move(PointId id, const Point<D>& point);
-  /// Likewise; D is 3 for polygons. Points are edited before lines, and lines before polygons. They
-  /// divide the mesh and keep it within no bounds: it is that of the box (Mesher::box_mesh).
+  /// Likewise; D is 3 for polygons. Points are edited before lines, and lines before polygons. The
+  /// mesh is that of the box (Mesher::box_mesh): what they enclose is not cut out of it.
   void insert_segment(LineId id, PointId from, PointId to);
   void insert_polyline(LineId id, const std::vector<PointId>& points);
   void remove_line(LineId id);
