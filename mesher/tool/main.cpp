@@ -9,6 +9,7 @@
 
 #include "cancel.hpp"
 #include "commands.hpp"
+#include "memory.hpp"
 #include "mesher/error.hpp"
 #include "mesher/predicates.hpp"
 #include "pipe.hpp"
@@ -83,6 +84,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   tool::catch_interrupts();
   tool::platform::return_failures_of_writes();
+  tool::bound_memory();
   try {
     mesher::predicates::self_test();
     return run(argc, argv);
@@ -90,7 +92,7 @@ int main(int argc, char** argv) {
     const bool stopped = error.code() == mesher::ErrorCode::cancelled;
     return fail(mesher::exit_code(error.code()), stopped ? tool::kStopped : error.what());
   } catch (const std::bad_alloc&) {
-    return fail(ExitCode::limit, "error[too_many]: out of memory");
+    return fail(ExitCode::limit, "error[too_many]: " + tool::out_of_memory());
   } catch (const std::exception& error) {
     return fail(ExitCode::bug, std::string("error[bug]: ") + error.what() +
                                    "; this is our mistake: please report it with the input");

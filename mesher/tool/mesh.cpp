@@ -8,6 +8,7 @@
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "figures.hpp"
+#include "memory.hpp"
 #include "mesher/meshing.hpp"
 #include "mesher/reports.hpp"
 #include "mesher/sizes.hpp"
@@ -111,7 +112,9 @@ Box<D> box_mesh(const MeshArguments& args, const Input<D>& input, const mesher::
   mesher::RunReport report;
   Box<D> box = locating(input, [&] {
     const StopPolitely stop;
-    return made_box(args, input, options, report, progress.control());
+    return within_memory(args.max_vertices.empty() && args.out_of_core.empty(), [&] {
+      return made_box(args, input, options, report, progress.control());
+    });
   });
   if (report.gave_up) {
     progress.erase();
@@ -150,7 +153,11 @@ Result<D> mesh(const MeshArguments& args, const Input<D>& input, const mesher::O
 template <int D>
 void run_mesh_in(const MeshArguments& args) {
   const auto input = read_input<D>(args);
-  const auto options = mesh_options(args, input);
+  auto options = mesh_options(args, input);
+  // Inputs that need more are seen early; out of core other things count.
+  if (options.max_vertices == 0 && args.out_of_core.empty()) {
+    options.max_vertices = most_vertices_in_memory(D);
+  }
   Outputs<D> outputs;
   open_outputs(args, input, outputs);
   Figures figures(args.stats, outputs);

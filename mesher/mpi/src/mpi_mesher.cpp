@@ -128,8 +128,8 @@ std::size_t MpiMesher<D>::size() const noexcept {
   return (*impl_)->size();
 }
 template <int D>
-std::vector<GraphPoint<D>> MpiMesher<D>::points() const {
-  return (*impl_)->points();
+std::vector<GraphPoint<D>> MpiMesher<D>::gather_points(int to) const {
+  return (*impl_)->gather_points(static_cast<std::size_t>(to));
 }
 template <int D>
 std::vector<Polyline> MpiMesher<D>::lines() const {

@@ -101,7 +101,9 @@ bool fails_at(std::uint64_t count, bool& burnt, const Act& act) {
 template <int D>
 void require_fresh(MpiMesher<D>& m) {
   mesher::BoxMesher<D> one(m.options());
-  for (const auto& p : m.points()) one.insert(p.id, p.at);
+  for (int to = 0; to < m.ranks(); ++to) {
+    for (const auto& p : m.gather_points(to)) one.insert(p.id, p.at);
+  }
   for (const auto& l : m.lines()) one.insert_polyline(l.id, l.points);
   for (const auto& f : m.polygons()) one.insert_polygon(f);
   one.update();
@@ -175,6 +177,19 @@ void check_memory() {
       if (i % size == self) m.move(PointId(i + 1), {points[i][1], points[i][0]});
     }
   });
+  check_failing_updates(m, [&] {
+    if (self == 0) m.move(PointId{7}, points[7]), m.move(PointId{8}, points[6]);
+    if (self == size - 1) m.remove(PointId{9}), m.insert(PointId{100}, points[8]);
+  });
+  check_failing_refusals(m, [&] {
+    if (self == 0) m.move(PointId{10}, points[11]);
+    if (self == size - 1) m.move(PointId{14}, points[12]);
+  });
+  check_failing_updates(m, [&] {  // from now on each rank has all points
+    if (self == size - 1) m.limit({.max_measure = 1e-2});
+    if (self == 0) m.remove(PointId{100});
+  });
+  require_fresh(m);
 }
 
 // --- Lines and polygons

@@ -227,10 +227,11 @@ class Program {
     if (mesher::format_of(path) == ".pvtu") return mesher::write_mesh(m, path);
     if (is_in_pieces(path)) return mesher::write_pieces(m, path);
     mesher::Mesh<D> whole = m.gather();
+    std::vector<mesher::GraphPoint<D>> points = m.gather_points();
     on_first([&] {
       mesher::WriteOptions how;
-      const auto made =
-          mesher::domain_mesh(std::move(whole), graph_of(m), mesher::Extent::enclosed);
+      const auto made = mesher::domain_mesh(std::move(whole), graph_of(m, std::move(points)),
+                                            mesher::Extent::enclosed);
       mesher::OutputFiles files;
       mesher::open_mesh<D>(files, path, content(), how)(made.mesh, made.mesh.features);
       files.commit();
@@ -238,9 +239,10 @@ class Program {
   }
 
   // The input, as it is now.
-  Graph<D> graph_of(const mesher::MpiMesher<D>& m) const {
+  Graph<D> graph_of(const mesher::MpiMesher<D>& m,
+                    std::vector<mesher::GraphPoint<D>> points) const {
     Graph<D> now = file_.graph;
-    now.points = m.points();
+    now.points = std::move(points);
     for (auto& p : now.points) p.marker = point_markers_.at(p.id);
     now.segments.clear();
     now.polylines = m.lines();

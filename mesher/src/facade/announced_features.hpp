@@ -10,7 +10,7 @@ namespace mesher::detail {
 template <int D>
 class AnnouncedFeatures {
  public:
-  using State = AnyState<D>;
+  using State = KnownPoints<D>;
 
   /// `rule`: of the options. `points` must outlive it.
   AnnouncedFeatures(Rule rule, const AnnouncedPoints<D>& points) : rule_(rule), points_(points) {}

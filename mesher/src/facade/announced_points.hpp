@@ -3,17 +3,18 @@
 
 #include <vector>
 
-#include "facade/any_state.hpp"
+#include "facade/edits.hpp"
+#include "facade/known_points.hpp"
 #include "facade/pending.hpp"
 
 namespace mesher::detail {
 
-/// `state`, in all functions: that of the last update.
+/// `state`, in all functions: of the last update.
 template <int D>
 class AnnouncedPoints {
  public:
   using Place = typename Pending<D>::Place;
-  using State = AnyState<D>;
+  using State = KnownPoints<D>;
 
   /// When a place that another point may have is looked at.
   enum class Judged : std::uint8_t { at_once, at_the_end };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "facade/edits.hpp"
+#include "facade/known_points.hpp"
 #include "geometry/grid.hpp"
 #include "mesher/mesher.hpp"
 #include "sac/engine.hpp"
@@ -13,12 +14,11 @@
 namespace mesher::detail {
 
 template <int D>
-class AnyState {
+class AnyState : public KnownPoints<D> {
  public:
+  using typename KnownPoints<D>::Named;
   /// A last word on a change, which may add to it; what it throws takes the update back.
   using Accept = std::function<void(Change<D>&)>;
-
-  virtual ~AnyState() = default;
 
   /// Inserts the features and runs the program. Requires: no run yet; edits insert, and leave
   /// limits as they are.
@@ -39,16 +39,6 @@ class AnyState {
   [[nodiscard]] virtual const sac::Engine& engine() const noexcept = 0;
 
   [[nodiscard]] virtual std::size_t size() const noexcept = 0;
-  /// Where the point is; nothing if it is not there.
-  [[nodiscard]] virtual typename Pending<D>::Place place(PointId id) const = 0;
-  /// The point in the same finest cell as `p`; nothing if there is none.
-  struct Named {
-    PointId id;
-    Point<D> p;
-  };
-  [[nodiscard]] virtual std::optional<Named> obstacle(const Point<D>& p) const = 0;
-  /// Ascending by id.
-  [[nodiscard]] virtual std::vector<GraphPoint<D>> points() const = 0;
 
   /// Of a change by a first run that goes from another mesh to this one: says in it what is to be
   /// said of simplices that are new. Beyond space, and in the plane, nothing.

@@ -81,6 +81,8 @@ class PartOfMesh {
   [[nodiscard]] virtual Change<D> whole() const = 0;
   /// Whether changes, as accept() and the caller see them, are those of all processes.
   [[nodiscard]] virtual bool tells_all() const noexcept { return false; }
+  /// Whether each process has points of its own, and no others.
+  [[nodiscard]] virtual bool is_divided() const noexcept { return false; }
   /// Whether there may be lines or polygons.
   [[nodiscard]] virtual bool has_features() const noexcept { return true; }
 };

@@ -33,6 +33,7 @@ class JointLimits {
  public:
   void announce(AnnouncedLimits<D> limits) { announced_.push_back(std::move(limits)); }
   void clear() noexcept { announced_.clear(); }
+  [[nodiscard]] bool is_empty() const noexcept { return announced_.empty(); }
 
   /// What this process announces. `domain`: where functions are looked at. Throws: what these do.
   void pack(const Box<D>& domain, Packer& to) const;

@@ -34,6 +34,12 @@ const Options<D>& tileable(const Options<D>& options) {
               "on several processes there are no recorded weights and no rule but radius-edge");
 }
 
+// What is said of limits, and of what keeps angles from their bounds, needs all points.
+template <int D>
+bool may_have_divided_points(const Options<D>& options) {
+  return !LimitsOf<D>(options, mesh_box(options)).any() && !bounds_dihedrals(options);
+}
+
 template <class T>
 void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
@@ -135,7 +141,10 @@ JointMesher<D>::JointMesher(std::unique_ptr<Peers> peers, const Options<D>& opti
     predicates::self_test();
     options_ = settled(options);
     box_ = mesh_box(options_);
-    Joint first = state_for(tileable(options_), false, 0);
+    const bool divides = !peers_->is_alone() && may_have_divided_points(options_);
+    if (divides) directory_ = std::make_unique<PointDirectory<D>>(*peers_);
+    Joint first = state_for(tileable(options_), false, 0,
+                            divides ? PointsOf::this_process : PointsOf::all_processes);
     state_ = std::move(first.state);
     part_ = first.part;
   });
@@ -186,9 +195,42 @@ void JointMesher<D>::announce(PolygonEdit edit) {
   announced_polygons_.push_back(std::move(edit));
 }
 
-// Those of all processes, made in all.
+template <int D>
+const KnownPoints<D>& JointMesher<D>::known() const noexcept {
+  if (all_points_ != nullptr) return *all_points_;
+  if (directory_ != nullptr) return *directory_;
+  return *state_;
+}
+
+template <int D>
+void JointMesher<D>::know_all_points() {
+  std::vector<GraphPoint<D>> mine;
+  together(*peers_, [&] { mine = directory_->points(); });
+  std::vector<GraphPoint<D>> all = points_of_all(mine, *peers_);
+  together(*peers_, [&] { all_points_ = std::make_unique<AllPoints<D>>(std::move(all), box_); });
+}
+
+// Points stay divided while there is nothing else.
 template <int D>
 void JointMesher<D>::collect(const RunControl& control) {
+  if (directory_ == nullptr) return collect_all(control);
+  std::uint64_t are_points =
+      announced_lines_.empty() && announced_polygons_.empty() && announced_limits_.is_empty();
+  peers_->least({&are_points, 1});
+  if (are_points == 0) {
+    know_all_points();
+    return collect_all(control);
+  }
+  together(*peers_, [&] {
+    if (control.stop.stop_requested()) throw sac::Cancelled();
+  });
+  directory_->collect(announced_, edits_);
+  together(*peers_, [&] { directory_->prepare(edits_.pending()); });
+}
+
+// Those of all processes, made in all.
+template <int D>
+void JointMesher<D>::collect_all(const RunControl& control) {
   Packer mine;
   together(*peers_, [&] {
     if (control.stop.stop_requested()) throw sac::Cancelled();
@@ -212,12 +254,12 @@ void JointMesher<D>::collect(const RunControl& control) {
     std::vector<Unpacker> rest(all.begin(), all.end());
     for (Unpacker& some : rest) {
       for (const Announcement& edit : some.template take_all<Announcement>()) {
-        if (edit.kind == Kind::insert) edits_.insert(*state_, edit.id, edit.p, Judged::at_the_end);
-        if (edit.kind == Kind::remove) edits_.remove(*state_, edit.id);
-        if (edit.kind == Kind::move) edits_.move(*state_, edit.id, edit.p);
+        if (edit.kind == Kind::insert) edits_.insert(known(), edit.id, edit.p, Judged::at_the_end);
+        if (edit.kind == Kind::remove) edits_.remove(known(), edit.id);
+        if (edit.kind == Kind::move) edits_.move(known(), edit.id, edit.p);
       }
     }
-    edits_.require_apart(*state_);
+    edits_.require_apart(known());
     collect_features(rest);
     limits = announced_limits_.joined(rest, peers_->self());
   });
@@ -232,7 +274,7 @@ void JointMesher<D>::collect_features(std::vector<Unpacker>& rest) {
     for (auto lines = some.template take<std::uint64_t>(); lines > 0; --lines) {
       const auto id = some.template take<LineId>();
       if (some.template take<bool>()) {
-        features_.insert_line(*state_, id, some.template take_all<PointId>());
+        features_.insert_line(known(), id, some.template take_all<PointId>());
       } else {
         features_.remove_line(id);
       }
@@ -244,7 +286,7 @@ void JointMesher<D>::collect_features(std::vector<Unpacker>& rest) {
     }
   }
   for (const PolygonEdit& edit : polygons) {
-    edit.to ? features_.insert_polygon(*state_, *edit.to) : features_.remove_polygon(edit.id);
+    edit.to ? features_.insert_polygon(known(), *edit.to) : features_.remove_polygon(edit.id);
   }
 }
 
@@ -270,6 +312,7 @@ void JointMesher<D>::clear_collected() noexcept {
   edits_.clear();
   features_.discard();
   limits_.clear();
+  all_points_.reset();
 }
 
 // --- Updates ---------------------------------------------------------------------------------
@@ -283,7 +326,11 @@ Change<D> JointMesher<D>::update(const RunControl& control, Told told) {
     Change<D> change = run_or_alone(control, told);
     limits_.commit(options_);
     features_.commit();
+    if (directory_ != nullptr) directory_->commit();
     clear_collected();
+    std::uint64_t points = directory_ != nullptr ? directory_->size() : state_->size();
+    if (directory_ != nullptr) peers_->sum({&points, 1});
+    size_ = static_cast<std::size_t>(points);
     discard_edits();
     return change;
   } catch (const sac::Cancelled&) {
@@ -298,17 +345,17 @@ Change<D> JointMesher<D>::update(const RunControl& control, Told told) {
 
 template <int D>
 Change<D> JointMesher<D>::run(const RunControl& control, Told told) {
-  if (!state_->ran()) return run_anew(control, told, 0);
+  if (!state_->ran() || all_points_ != nullptr) return run_anew(control, told);
   std::optional<Edits<D>> edits;
   together(*peers_, [&] {
     edits.emplace(Edits<D>{edits_.pending().sorted(), features_.lines(), features_.polygons(),
                            limits_.edit(options_)});
   });
-  if (!state_->takes(*edits)) return run_anew(control, told, 0);
+  if (!state_->takes(*edits)) return run_anew(control, told);
   if (state_->is_sooner_anew(*edits)) {
     std::exception_ptr other;
     try {
-      return run_anew(control, told, 0);
+      return run_anew(control, told);
     } catch (const Error&) {  // it is said in the words of an update
     } catch (...) {
       other = std::current_exception();
@@ -340,12 +387,14 @@ Change<D> JointMesher<D>::run_or_alone(const RunControl& control, Told told) {
   };
   if (auto change = attempt([&] { return run(control, told); })) return std::move(*change);
   if (is_given_up) {
-    if (auto change = attempt([&] { return run_anew(control, told, 0); })) {
+    if (auto change = attempt([&] { return run_anew(control, told); })) {
       return std::move(*change);
     }
   }
-  refuse_alone(control);
-  return run_anew(control, told, 1);  // whose calls are those of one process
+  PointEdits<D> points = points_to_be(PointsOf::all_processes);
+  refuse_alone(control, points);
+  // Calls are those of one process then.
+  return run_anew(control, told, 1, PointsOf::all_processes, std::move(points));
 }
 
 // All have failed. One of them may have had no memory to throw what the others have: then none goes
@@ -359,10 +408,10 @@ void JointMesher<D>::require_none(const std::exception_ptr& other) {
 }
 
 template <int D>
-auto JointMesher<D>::state_for(const Options<D>& options, bool has_features, std::size_t tiles)
-    -> Joint {
-  const auto make = [&]<class State>(std::type_identity<State>) {
-    auto state = std::make_unique<State>(options, *peers_, tiles);
+auto JointMesher<D>::state_for(const Options<D>& options, bool has_features, std::size_t tiles,
+                               PointsOf which) -> Joint {
+  const auto make = [&]<class State>(std::type_identity<State>, auto... more) {
+    auto state = std::make_unique<State>(options, *peers_, tiles, more...);
     const PartOfMesh<D>* part = state.get();
     return Joint{std::move(state), part};
   };
@@ -374,34 +423,60 @@ auto JointMesher<D>::state_for(const Options<D>& options, bool has_features, std
     if (has_features) return make(std::type_identity<TiledSpaceState>());
   }
 #endif
-  return make(std::type_identity<TiledState<D>>());
+  return make(std::type_identity<TiledState<D>>(), which);
+}
+
+// All that there shall be, as new ones; where points are divided, of this process alone those of
+// directory_.
+template <int D>
+PointEdits<D> JointMesher<D>::points_to_be(PointsOf which) {
+  PointEdits<D> points;
+  together(*peers_, [&] { points = size_ != 0 ? edits_.all(known()) : edits_.pending().sorted(); });
+  if (!shares_points() || which == PointsOf::this_process) return points;
+  std::vector<GraphPoint<D>> mine;
+  together(*peers_, [&] {
+    for (const auto& edit : points) mine.push_back({edit.id, *edit.to});
+  });
+  const std::vector<GraphPoint<D>> all = points_of_all(mine, *peers_);
+  together(*peers_, [&] {
+    Pending<D> pending(box_);
+    for (const auto& p : all) pending.set(p.id, {}, p.at);
+    points = pending.sorted();
+  });
+  return points;
+}
+
+template <int D>
+Change<D> JointMesher<D>::run_anew(const RunControl& control, Told told) {
+  const PointsOf which = shares_points() ? PointsOf::this_process : PointsOf::all_processes;
+  return run_anew(control, told, 0, which, points_to_be(which));
 }
 
 // A state from the start, of all that there is.
 template <int D>
-Change<D> JointMesher<D>::run_anew(const RunControl& control, Told told, std::size_t tiles) {
-  PointEdits<D> points;
+Change<D> JointMesher<D>::run_anew(const RunControl& control, Told told, std::size_t tiles,
+                                   PointsOf which, PointEdits<D> points) {
   StagedLines lines;
   StagedPolygons polygons;
   Joint fresh;
   typename AnyState<D>::Accept accept;
   together(*peers_, [&] {
-    points = state_->ran() ? edits_.all(*state_) : edits_.pending().sorted();
     lines = all_of(features_.lines()), polygons = all_of(features_.polygons());
-    fresh =
-        state_for(limits_.applied_to(options_), lines.has_edits() || polygons.has_edits(), tiles);
+    fresh = state_for(limits_.applied_to(options_), lines.has_edits() || polygons.has_edits(),
+                      tiles, which);
     accept = [&](Change<D>& whole) { whole = told_anew(std::move(whole), fresh, told); };
   });
   Edits<D> edits{std::move(points), lines, polygons};
   Change<D> change = fresh.state->first_run(std::move(edits), control, accept);
   state_ = std::move(fresh.state);
   part_ = fresh.part;
+  if (which == PointsOf::all_processes) directory_.reset();
   return change;
 }
 
 // What tiles have refused: the first process says why, if it is not to be had at all.
 template <int D>
-void JointMesher<D>::refuse_alone(const RunControl& control) {
+void JointMesher<D>::refuse_alone(const RunControl& control, const PointEdits<D>& points) {
   together(*peers_, [&] {
     if (peers_->self() != 0) return;
     Options<D> now = limits_.applied_to(options_);
@@ -409,7 +484,7 @@ void JointMesher<D>::refuse_alone(const RunControl& control) {
     State<D> alone(now);
     const StagedLines lines = all_of(features_.lines());
     const StagedPolygons polygons = all_of(features_.polygons());
-    const Edits<D> edits{edits_.all(*state_), lines, polygons};
+    const Edits<D> edits{points, lines, polygons};
     static_cast<void>(alone.first_run(edits, control, [](Change<D>&) {}));
   });
 }
@@ -561,6 +636,30 @@ std::vector<mesher::Polygon> JointMesher<D>::polygons() const {
 }
 
 template <int D>
+std::vector<GraphPoint<D>> JointMesher<D>::gather_points(std::size_t to) const {
+  std::vector<GraphPoint<D>> points;
+  if (directory_ == nullptr) {
+    together(*peers_, [&] {
+      if (peers_->self() == to) points = state_->points();
+    });
+    return points;
+  }
+  Packer mine;
+  together(*peers_, [&] {
+    SAC_EXPECTS(to < peers_->size());
+    mine.put_all(directory_->points());
+  });
+  const std::vector<Bytes> parts = tell_to(*peers_, to, mine.bytes());
+  together(*peers_, [&] {
+    if (peers_->self() != to) return;
+    for (const Bytes& part : parts) append(points, Unpacker(part).take_all<GraphPoint<D>>());
+    std::sort(points.begin(), points.end(),
+              [](const auto& a, const auto& b) { return a.id < b.id; });
+  });
+  return points;
+}
+
+template <int D>
 JointNumbers JointMesher<D>::numbers(const Mesh<D>& own) const {
   return state_->ran() ? joint_numbers(own, tiles(), *peers_) : JointNumbers();
 }
@@ -627,7 +726,13 @@ std::string JointMesher<D>::certificate() const {
 
 template <int D>
 void JointMesher<D>::check_invariants() const {
-  if (state_->ran()) state_->check_invariants();
+  if (!state_->ran()) return;
+  state_->check_invariants();
+  SAC_INVARIANT(part_->is_divided() == (directory_ != nullptr));
+  if (directory_ == nullptr) return;
+  std::array<std::uint64_t, 2> known{directory_->size(), state_->size()};
+  peers_->sum(known);
+  SAC_INVARIANT(known[0] == known[1] && known[0] == size_);
 }
 
 template class JointMesher<2>;

@@ -1,9 +1,10 @@
 // A mesh that several processes keep together, with the bytes of one.
 //
 // Each process has a JointMesher with the same options, and its tiles of the mesh: the calls of the
-// trace, and the simplices, are divided. The input, what is done to it before refinement, and the
-// tree that says how crowded it is, are held by all: the trace is 10 to 20 times larger. Where
-// there are lines or polygons in space all hold the mesh, too.
+// trace, and the simplices, are divided, and so are points alone (divided_points.hpp). Where there
+// are lines, polygons, limits of size or bounds of angles, all hold the input, what is done to it
+// before refinement, and the tree that says how crowded it is: the trace is 10 to 20 times larger.
+// Where there are lines or polygons in space all hold the mesh, too.
 //
 // Functions that are said to be of all are called by all processes, in the same order; they throw
 // in all, or in none (peers.hpp).
@@ -21,6 +22,7 @@
 #include "facade/joint_limits.hpp"
 #include "facade/joint_numbers.hpp"
 #include "facade/pending_limits.hpp"
+#include "facade/point_directory.hpp"
 #include "facade/reentry_guard.hpp"
 #include "facade/tiled_state.hpp"
 #include "mesher/mesher.hpp"
@@ -98,9 +100,10 @@ class JointMesher {
   /// nothing, and the mesh is certain to be that of one process.
   [[nodiscard]] std::string certificate() const;
 
-  /// Points of the last update.
-  [[nodiscard]] std::size_t size() const noexcept { return state_->size(); }
-  [[nodiscard]] std::vector<GraphPoint<D>> points() const { return state_->points(); }
+  /// Points of the last update, in all processes.
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  /// Of all: the points, ascending by id, in process `to`; none in others.
+  [[nodiscard]] std::vector<GraphPoint<D>> gather_points(std::size_t to = 0) const;
   /// Ascending by id.
   [[nodiscard]] std::vector<Polyline> lines() const;
   [[nodiscard]] std::vector<mesher::Polygon> polygons() const;
@@ -109,16 +112,12 @@ class JointMesher {
   [[nodiscard]] Peers& peers() const noexcept { return *peers_; }
   /// Requires: an update.
   [[nodiscard]] const TiledMesher<D>& tiles() const noexcept { return part_->tiles(); }
+  /// Of all.
   void check_invariants() const;
 
  private:
-  enum class Kind : std::int64_t { insert, remove, move };  // as wide as the others: no gap
-  struct Announcement {
-    Kind kind;
-    PointId id;
-    Point<D> p;
-  };
-
+  using Announcement = typename PointDirectory<D>::Announcement;
+  using Kind = typename PointDirectory<D>::Kind;
   struct LineEdit {
     LineId id;
     std::optional<LinePoints> to;  // nothing: it goes
@@ -143,15 +142,25 @@ class JointMesher {
   void announce(LineEdit edit);
   void announce(PolygonEdit edit);
   void collect_features(std::vector<Unpacker>& rest);
-  [[nodiscard]] Joint state_for(const Options<D>& options, bool has_features, std::size_t tiles);
+  [[nodiscard]] Joint state_for(const Options<D>& options, bool has_features, std::size_t tiles,
+                                PointsOf which);
   void require_equal_options();
   void require_equal(const Packer& mine, const char* what);
   void collect(const RunControl& control);
+  void collect_all(const RunControl& control);
+  [[nodiscard]] const KnownPoints<D>& known() const noexcept;
+  [[nodiscard]] bool shares_points() const noexcept {
+    return directory_ != nullptr && all_points_ == nullptr;
+  }
+  void know_all_points();
+  [[nodiscard]] PointEdits<D> points_to_be(PointsOf which);
   void limit_all(const std::vector<AnnouncedLimits<D>>& limits);
   Change<D> run(const RunControl& control, Told told);
   Change<D> run_or_alone(const RunControl& control, Told told);
-  Change<D> run_anew(const RunControl& control, Told told, std::size_t tiles);
-  void refuse_alone(const RunControl& control);
+  Change<D> run_anew(const RunControl& control, Told told);
+  Change<D> run_anew(const RunControl& control, Told told, std::size_t tiles, PointsOf which,
+                     PointEdits<D> points);
+  void refuse_alone(const RunControl& control, const PointEdits<D>& points);
   void require_none(const std::exception_ptr& other);
   [[nodiscard]] Part part_from_last(Change<D>& whole) const;
   [[nodiscard]] Change<D> told_of(Part part, Told told) const;
@@ -165,12 +174,15 @@ class JointMesher {
   Options<D> options_;
   MeshBox<D> box_;
   std::unique_ptr<AnyState<D>> state_;
-  const PartOfMesh<D>* part_ = nullptr;  // of state_
+  const PartOfMesh<D>* part_ = nullptr;           // of state_
+  std::unique_ptr<PointDirectory<D>> directory_;  // null: each process has all points
+  std::unique_ptr<AllPoints<D>> all_points_;      // while it is not to have its own alone any more
+  std::size_t size_ = 0;
   std::vector<Announcement> announced_;  // in this process
   std::vector<LineEdit> announced_lines_;
   std::vector<PolygonEdit> announced_polygons_;
   JointLimits<D> announced_limits_;  // likewise
-  AnnouncedPoints<D> edits_;         // in all
+  AnnouncedPoints<D> edits_;         // in all; where points are divided, of those of directory_
   AnnouncedFeatures<D> features_;    // likewise
   PendingLimits<D> limits_;          // likewise
   ReentryGuard busy_;

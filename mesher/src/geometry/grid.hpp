@@ -56,7 +56,7 @@ struct MeshBox {
   [[nodiscard]] double cell_side(int level) const { return std::ldexp(side, -level); }
   [[nodiscard]] bool contains(const Point<D>& p) const {
     for (int i = 0; i < D; ++i) {
-      if (p[i] < lo[i] || p[i] > hi(i)) return false;
+      if (!(p[i] >= lo[i] && p[i] <= hi(i))) return false;  // nor if it is no number
     }
     return true;
   }

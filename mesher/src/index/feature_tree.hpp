@@ -54,6 +54,10 @@ class FeatureTree {
   /// The same; threads that ask at once have a path each, which is empty to begin with.
   [[nodiscard]] int crowded_level(const Vertex<D>& v, Path& path) const;
 
+  /// One of the points that crowd a point at `p` at its deepest level, but not one at `p` itself:
+  /// one in the same finest cell, if there is one; null if there is none. Cost: O(that level).
+  [[nodiscard]] const Vertex<D>* crowder(const Point<D>& p) const;
+
   /// Adds a point without updating K: for many at once, each then asked for its crowded_level().
   /// Requires: obstacle(v.p) == nullptr.
   void insert_only(Vertex<D>& v) {
@@ -252,6 +256,31 @@ const Vertex<D>* FeatureTree<D>::obstacle(const Point<D>& p) const {
   }
   if (node == 0) return nullptr;
   return fixed_of(node) == f ? &vertices_[node & ~kPoint] : nullptr;
+}
+
+template <int D>
+const Vertex<D>* FeatureTree<D>::crowder(const Point<D>& p) const {
+  const Vertex<D>* there = obstacle(p);
+  if (there != nullptr && there->p != p) return there;
+  const Node self = there == nullptr ? Node{0} : kPoint | there->self;
+  const auto other_in = [self](const auto& nodes) {
+    const auto it =
+        std::find_if(nodes.begin(), nodes.end(), [self](Node n) { return n != 0 && n != self; });
+    return it == nodes.end() ? Node{0} : *it;
+  };
+  const Fixed<D> f = box_.fixed(p);
+  Around around = start();
+  Node deepest = 0;
+  for (int level = 0;; ++level) {
+    const Node other = other_in(around);
+    if (other == 0) break;
+    deepest = other;
+    if (level == kLevels) break;
+    around = down(around, f, level);
+  }
+  if (deepest == 0) return nullptr;
+  while ((deepest & kPoint) == 0) deepest = other_in(blocks_[deepest]);
+  return &vertices_[deepest & ~kPoint];
 }
 
 // The last cell that holds both places, or the one that holds its point.

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -309,14 +310,15 @@ class VertexSearch {
 
   // Notes who is in reach in the leaves that a gap ball enters, and returns true; false if they are
   // too many to be looked at. Whether a vertex is in reach cannot be predicted: all are written
-  // down, and those that are not are written over.
+  // down, and those that are not are written over. Slots without a vertex are infinitely far, which
+  // the corner between two neighbours that are nearly one may be as well.
   bool meet(const Cell& cell, const Box<D>& box, typename Tree::Looked& looked) const {
     met_count_ = 0;
     std::size_t count = 0;
     const auto note = [&, v = cell.center().self, center = cell.center().p,
-                       reach2 = 4 * cell.open2()](const typename Tree::Handles& handles,
-                                                  const typename Tree::Places& places,
-                                                  std::uint32_t used) {
+                       reach2 = std::min(4 * cell.open2(), std::numeric_limits<double>::max())](
+                          const typename Tree::Handles& handles,
+                          const typename Tree::Places& places, std::uint32_t used) {
       visited_ += used;
       if (met_.size() < count + Tree::kSlots) met_.resize(2 * met_.size() + Tree::kSlots);
       Met* const met = met_.data();

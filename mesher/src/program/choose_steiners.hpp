@@ -83,10 +83,11 @@ template <class S, int D>
 }
 
 /// The vertex at `point`, which fills a gap ball of v. In a tile nothing, if that is not possible:
-/// it may be otherwise when other tiles have said what they have. Nor if others are too near, as
-/// are two versions of one vertex, in two tiles: to refine the mesh down to their distance would
-/// take long. (Beside segments others may be as near in the end: leaves that are cut are shorter
-/// than these lengths at small angles. When all else is agreed on it is tried again.)
+/// it may be otherwise when other tiles have said what they have: a cell among few vertices has
+/// corners far away, or nowhere. Nor if others are too near, as are two versions of one vertex, in
+/// two tiles: to refine the mesh down to their distance would take long. (Beside segments others
+/// may be as near in the end: leaves that are cut are shorter than these lengths at small angles.
+/// When all else is agreed on it is tried again.)
 template <class S, int D>
 std::optional<VertexRef<D>> fill_at(S& s, World<S, D>& w, CellOf<D>& gaps, const Vertex<D>& v,
                                     int b, const typename InsertionRule<D>::NewPoint& point) {
@@ -98,15 +99,15 @@ std::optional<VertexRef<D>> fill_at(S& s, World<S, D>& w, CellOf<D>& gaps, const
   if (!w.is_part()) return fill();
   double nearest = nearest_in(w) * w.buckets().shortest(b);
   if constexpr (S::kTraced) nearest *= w.border->nearness(s);
-  const bool is_near = !(point.nearest2 >= nearest * nearest);  // nor if it is no number
+  const bool is_far = w.box.contains(point.p) && point.nearest2 >= nearest * nearest;
   std::optional<VertexRef<D>> x;
   succeeds(
       s, w,
       [&] {
-        if (is_near) w.fail_useless(v, v);
+        if (!is_far) w.fail_useless(v, v);
         x = fill();
       },
-      is_near);
+      !is_far);
   return x;
 }
 

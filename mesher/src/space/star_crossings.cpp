@@ -40,17 +40,13 @@ StarCrossings::StarCrossings(VoronoiCell3& cell, const VertexPool<3>& pool,
     }
   }
   reach_ = std::sqrt(reach2);
-  std::sort(real_.begin(), real_.end(),
-            [&](int i, int j) { return cell.place(i) < cell.place(j); });
-  rank_.resize(index(cell.size()));
-  for (std::size_t i = 0; i < real_.size(); ++i) rank_[index(real_[i])] = static_cast<int>(i);
   rounding_ = 0x1p-40 * reach_ + resolution(v, reach_);
   for (int t = 0; t < cell.corners(); ++t) {
     const auto& ends = cell.ends(t);
     for (std::size_t k = 0; k < 3; ++k) {
       const int p = ends[k], q = ends[(k + 1) % 3];
       if (!cell.real(p) || !cell.real(q)) continue;
-      if (rank_[index(p)] < rank_[index(q)]) link_.push_back({p, q});  // it is seen from both sides
+      if (cell.place(p) < cell.place(q)) link_.push_back({p, q});  // it is seen from both sides
     }
     if (std::none_of(ends.begin(), ends.end(), [&](int i) { return cell.real(i); })) continue;
     balls_.push_back(
@@ -258,8 +254,10 @@ bool StarCrossings::are_beside() const {
 }
 
 bool StarCrossings::is_before(const LinkEdge& a, const LinkEdge& b) const noexcept {
-  const auto rank = [&](int i) { return i == kSelf ? kSelf : rank_[index(i)]; };
-  return std::pair(rank(a.p), rank(a.q)) < std::pair(rank(b.p), rank(b.q));
+  const auto precedes = [&](int i, int j) {
+    return j != kSelf && (i == kSelf || cell_.place(i) < cell_.place(j));
+  };
+  return a.p == b.p ? precedes(a.q, b.q) : precedes(a.p, b.p);
 }
 
 /// Twice the area of a triangle at the line; 0 if rounding may have made its sign.

@@ -135,8 +135,7 @@ class StarCrossings {
   const VertexPool<3>& pool_;
   const FeaturesBeside& near_;
   // Numbers of neighbours are accidental: what depends on an order goes by places.
-  std::vector<int> real_;       // neighbours that are vertices, by places
-  std::vector<int> rank_;       // of these: where in real_
+  std::vector<int> real_;       // neighbours that are vertices
   std::vector<Role> roles_;     // of these
   std::vector<LinkEdge> link_;  // between these
   Role self_;

@@ -620,6 +620,16 @@ auto TileMesher<D>::birth_for(std::uint32_t asker, const Vertex<D>& v) const
   return known ? std::nullopt : std::optional(born);
 }
 
+// Points are located before there are other calls.
+template <int D>
+bool TileMesher<D>::has_heard_of_input(const Vertex<D>& v) const {
+  const auto [first, last] = from_.equal_range(v.p);
+  return std::any_of(first, last, [](const auto& f) {
+    const Born& born = f.second.born;
+    return born.turn.stage == Stage::quadtree && born.role.on == 0;
+  });
+}
+
 template <int D>
 void TileMesher<D>::collect_answers(Doubtful& doubtful) {
   for (const std::uint32_t id : border_->take_answered()) {

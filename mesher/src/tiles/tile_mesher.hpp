@@ -221,6 +221,8 @@ class TileMesher {
     if constexpr (D == 2) return world_->leaves.may_lose();
     return false;
   }
+  /// Of a vertex of another tile: whether it is a point of the input.
+  [[nodiscard]] bool has_heard_of_input(const Vertex<D>& v) const;
   /// By what all tiles call its segment.
   [[nodiscard]] Role named(Role role) const noexcept;
   [[nodiscard]] const World<sac::Scope, D>& world() const noexcept { return *world_; }

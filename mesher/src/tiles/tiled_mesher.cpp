@@ -103,12 +103,14 @@ void TiledMesher<D>::watch(const Ask& ask) {
   }
 }
 
+// Those that run while tiles come to agree.
 template <int D>
-void TiledMesher<D>::bound_calls() noexcept {
+std::uint64_t TiledMesher<D>::calls_allowed() const noexcept {
   constexpr std::uint64_t kFew = 1 << 16;  // more than that, and than
   constexpr std::uint64_t kTimes = 4;      // times those that there are, are too many
-  most_calls_ = kFew;
-  for (const auto& tile : tiles_) most_calls_ += kTimes * tile->engine().live_calls();
+  std::uint64_t most = kFew;
+  for (const auto& tile : tiles_) most += kTimes * tile->engine().live_calls();
+  return most;
 }
 
 template <int D>
@@ -157,7 +159,7 @@ void TiledMesher<D>::sort_messages() {
 template <int D>
 auto TiledMesher<D>::agree_on_next() -> Next {
   constexpr std::uint64_t kNone = ~std::uint64_t{0};
-  std::array<std::uint64_t, 3> next{kNone, 1, 1};
+  std::array<std::uint64_t, 4> next{kNone, 1, 1, 1};
   for (const auto& waiting : waiting_) {
     if (waiting.is_empty()) continue;
     const auto [stage, bucket] = waiting.first();
@@ -167,9 +169,11 @@ auto TiledMesher<D>::agree_on_next() -> Next {
     if (tile->is_dirty()) next[1] = 0;
     if (tile->border().has_faults()) next[2] = 0;
   }
+  if (phase_ != Phase::update && all_.size() > 1 && calls() > calls_allowed()) next[3] = 0;
   agree(next);
   const Time first{static_cast<Stage>(next[0] >> 32), static_cast<std::uint32_t>(next[0])};
-  return {next[0] == kNone ? std::nullopt : std::optional(first), next[1] == 0, next[2] == 0};
+  return {next[0] == kNone ? std::nullopt : std::optional(first), next[1] == 0, next[2] == 0,
+          next[3] == 0};
 }
 
 // What a tile says until then, to whom it concerns.
@@ -236,13 +240,15 @@ bool TiledMesher<D>::try_nearer() {
   return is_none == 0;
 }
 
-// Messages that wait are sent first.
+// Messages that wait are sent first. Not to the end, if is_in_vain_ is so then.
 template <int D>
 void TiledMesher<D>::settle(Changes* changes) {
   for (const auto& tile : tiles_) tile->reset_nearness();
   while (true) {
     attempt([&] { sort_messages(); });
     const Next next = agree_on_next();
+    is_in_vain_ = next.is_in_vain;
+    if (is_in_vain_) return;
     const bool is_settled = !next.first && !next.is_dirty;
     if (is_settled && !(next.has_faults && try_nearer())) return;
     if (next.first) exchange(*next.first);
@@ -338,7 +344,7 @@ void TiledMesher<D>::require_all() {
 // --- Runs ------------------------------------------------------------------------------------
 
 template <int D>
-void TiledMesher<D>::first_run(const Edits& edits, const Ask& ask, const Common& common) {
+bool TiledMesher<D>::first_run(const Edits& edits, const Ask& ask, const Common& common) {
   attempt([&] { watch(ask); });
   auto mark = std::chrono::steady_clock::now();
   const auto begin = [&](Phase phase) {
@@ -351,6 +357,7 @@ void TiledMesher<D>::first_run(const Edits& edits, const Ask& ask, const Common&
     mark = now;
   };
   const auto run_all = [&](std::uint64_t calls, auto&& part) {
+    if (is_in_vain_) return;
     attempt([&] {
       for_each_tile(calls, [&](std::size_t t) {
         part(*tiles_[t], t);
@@ -358,7 +365,7 @@ void TiledMesher<D>::first_run(const Edits& edits, const Ask& ask, const Common&
       });
     });
     settle(nullptr);
-    require_all();
+    if (!is_in_vain_) require_all();
   };
   constexpr std::uint64_t kMany = ~std::uint64_t{0};
   begin(Phase::quadtree);
@@ -376,7 +383,8 @@ void TiledMesher<D>::first_run(const Edits& edits, const Ask& ask, const Common&
     return static_cast<int>(least_of(least));
   };
   const int parts = least([](const TileMesher<D>& tile) { return tile.parts(); });
-  for (int done = 0; done < parts;) {  // those in which nothing waits run with the next one
+  for (int done = 0;
+       done < parts && !is_in_vain_;) {  // those in which nothing waits run with the next one
     const int first = done;
     done = std::min(least([&](const TileMesher<D>& tile) { return tile.next_part(first); }) + 1,
                     parts);
@@ -392,6 +400,7 @@ void TiledMesher<D>::first_run(const Edits& edits, const Ask& ask, const Common&
   run_all(kMany, [&](TileMesher<D>& tile, std::size_t) { tile.run_stars(); });
   end();
   unwatch();
+  return !is_in_vain_;
 }
 
 template <int D>
@@ -419,7 +428,7 @@ void TiledMesher<D>::update(const Edits& edits, const Ask& ask,
                             const std::function<void(Changes&)>& last, const Common& common) {
   require_sound();
   phase_ = Phase::update;
-  bound_calls();
+  most_calls_ = calls_allowed();
   attempt([&] { watch(ask); });
   agree();
   is_exact_ = false;
@@ -494,21 +503,19 @@ struct TiledMesher<D>::Part {
 // Vertices of other processes, numbered behind all of this one as they are met; for all threads.
 template <int D>
 struct TiledMesher<D>::Others {
-  const IsInput& is_input;
   std::uint32_t first;
   std::mutex mutex{};
   std::map<Point<D>, std::uint32_t> numbers{};
   std::vector<Point<D>> places{};
   std::vector<VertexKind> kinds{};
 
-  std::uint32_t number_of(const Vertex<D>& v) {
+  std::uint32_t number_of(const TileMesher<D>& tile, const Vertex<D>& v) {
     const std::scoped_lock lock(mutex);
     const auto [it, is_new] =
         numbers.try_emplace(v.p, first + static_cast<std::uint32_t>(places.size()));
     if (is_new) {
-      const bool may_be_input = !v.boundary && !v.on_segment;
       places.push_back(v.p);
-      kinds.push_back(may_be_input && is_input(v.p) ? VertexKind::input : v.kind());
+      kinds.push_back(tile.has_heard_of_input(v) ? VertexKind::input : v.kind());
     }
     return it->second;
   }
@@ -543,7 +550,7 @@ void TiledMesher<D>::list_simplices(std::size_t t, std::vector<Part>& parts, Oth
     if (part.number[h] != kUnnumbered) return part.first + part.number[h];
     if (foreign[h] == kUnnumbered) {
       const auto owner = own_tile(pool[h].p);
-      foreign[h] = owner ? number_in(*owner, pool[h].p) : others.number_of(pool[h]);
+      foreign[h] = owner ? number_in(*owner, pool[h].p) : others.number_of(*tiles_[t], pool[h]);
     }
     return foreign[h];
   };
@@ -554,7 +561,7 @@ void TiledMesher<D>::list_simplices(std::size_t t, std::vector<Part>& parts, Oth
 }
 
 template <int D>
-Mesh<D> TiledMesher<D>::mesh(const IsInput& is_input, const LineOf& line_of) const {
+Mesh<D> TiledMesher<D>::mesh(const LineOf& line_of) const {
   require_sound();
   std::vector<Part> parts(tiles_.size());
   on_threads(tiles_.size(), [&](std::size_t t) { number_vertices(t, parts[t]); });
@@ -567,14 +574,14 @@ Mesh<D> TiledMesher<D>::mesh(const IsInput& is_input, const LineOf& line_of) con
     places.insert(places.end(), part.places.begin(), part.places.end());
     kinds.insert(kinds.end(), part.kinds.begin(), part.kinds.end());
   }
-  Others others{is_input, static_cast<std::uint32_t>(places.size())};
+  Others others{static_cast<std::uint32_t>(places.size())};
   on_threads(tiles_.size(), [&](std::size_t t) { list_simplices(t, parts, others); });
   OnFeatures on;
   for (std::size_t t = 0; t < tiles_.size(); ++t) {
     const auto& tree = tiles_[t]->world().vertices.tree();
     const auto number_of = [&](const Point<D>& p) {
       const auto owner = own_tile(p);
-      if (!owner) return others.number_of(*tree.find(p));
+      if (!owner) return others.number_of(*tiles_[t], *tree.find(p));
       const VertexHandle there = tiles_[*owner]->world().vertices.tree().find(p)->self;
       return parts[*owner].first + parts[*owner].number[there];
     };

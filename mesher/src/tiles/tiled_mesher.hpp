@@ -10,6 +10,7 @@
 // that nobody needs.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -112,8 +113,10 @@ class TiledMesher {
   /// Throws: Error, sac::Cancelled, std::bad_alloc, what `ask` throws: good for nothing then. What
   /// is thrown in one process is thrown in all, as by agree().
   /// `common`: null where there is nothing to be told.
+  /// False: in some process several times the calls that there are have run, and tiles do not agree
+  /// yet; it is good for nothing then, and one tile is sooner done. Not so of one tile.
   using Common = std::shared_ptr<const CommonOrders<D>>;
-  void first_run(const Edits& edits, const Ask& ask, const Common& common = nullptr);
+  [[nodiscard]] bool first_run(const Edits& edits, const Ask& ask, const Common& common = nullptr);
   /// Makes the edits; last(changes) is called, with those of this process, when all agree; it
   /// throws in all processes or in none. Throws: likewise, and what `last` throws: then the whole
   /// input must be put back, and the edits taken back.
@@ -137,13 +140,22 @@ class TiledMesher {
   [[nodiscard]] std::size_t process_of(const Point<D>& p) const noexcept {
     return process_of_[all_.owner(p)];
   }
+  /// Calls visit(process) once for each other process of which the closed box meets a territory.
+  template <class Visit>
+  void for_each_other_met(const Box<D>& area, Visit&& visit) const {
+    std::vector<std::size_t> met;
+    all_.for_each_met(area, [&](std::size_t tile) {
+      if (process_of_[tile] != peers_.self()) met.push_back(process_of_[tile]);
+    });
+    std::sort(met.begin(), met.end());
+    met.erase(std::unique(met.begin(), met.end()), met.end());
+    std::for_each(met.begin(), met.end(), visit);
+  }
   [[nodiscard]] const Exchanges& exchanges() const noexcept { return exchanges_; }
-  /// The simplices of the tiles of this process, and their vertices. `is_input(p)`: of a vertex
-  /// that is another process's and not on the boundary, whether it is a point of the input.
-  using IsInput = std::function<bool(const Point<D>&)>;
+  /// The simplices of the tiles of this process, and their vertices.
   /// What line a segment is of, by what all tiles call it.
   using LineOf = std::function<LineId(SegmentHandle)>;
-  [[nodiscard]] Mesh<D> mesh(const IsInput& is_input, const LineOf& line_of = {}) const;
+  [[nodiscard]] Mesh<D> mesh(const LineOf& line_of = {}) const;
   /// In the territories of this process.
   [[nodiscard]] std::size_t vertices() const noexcept;
   /// Of the phases of the first run.
@@ -180,6 +192,7 @@ class TiledMesher {
     std::optional<Time> first;  // of the messages that wait
     bool is_dirty;
     bool has_faults;
+    bool is_in_vain;
   };
   [[nodiscard]] Next agree_on_next();
   void sort_messages();
@@ -198,7 +211,7 @@ class TiledMesher {
   void number_vertices(std::size_t t, Part& part) const;
   void list_simplices(std::size_t t, std::vector<Part>& parts, Others& others) const;
   void require_sound() const;
-  void bound_calls() noexcept;
+  [[nodiscard]] std::uint64_t calls_allowed() const noexcept;
   void edit_all(const Edits& edits, const Common& common);
   void commit_lines() noexcept;
 
@@ -230,6 +243,7 @@ class TiledMesher {
   std::atomic<std::uint64_t> calls_ = 0;
   std::uint64_t most_calls_ = ~std::uint64_t{0};
   std::atomic<bool> gives_up_ = false;
+  bool is_in_vain_ = false;  // a first run, of all processes
 };
 
 }  // namespace mesher::detail

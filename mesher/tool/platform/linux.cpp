@@ -4,12 +4,15 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <limits>
+#include <string_view>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -22,6 +25,60 @@ namespace {
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
 void (*handle)() = nullptr;  // set before there is a signal that calls it
+
+constexpr std::uint64_t kBytesPerUnit = 1024;  // Linux counts in kB
+
+// The number behind a name at the beginning of a line; without a name, the first one. 0: none.
+std::uint64_t value_in(const std::string& path, std::string_view name) {
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    if (line.compare(0, name.size(), name) != 0) continue;
+    return std::strtoull(line.c_str() + name.size(), nullptr, 10);
+  }
+  return 0;
+}
+
+// One of the two ways in which Linux bounds the memory of groups of processes.
+struct GroupFiles {
+  std::string_view folder, limit, used;  // of `used` a name in memory.stat
+};
+constexpr GroupFiles kGroups{"/sys/fs/cgroup", "/memory.max", "anon "};
+constexpr GroupFiles kFirstGroups{"/sys/fs/cgroup/memory", "/memory.limit_in_bytes", "total_rss "};
+constexpr std::uint64_t kNoBound = ~std::uint64_t{0};
+
+// What is left to a group, without what the system can drop.
+std::uint64_t free_in_group(const std::string& folder, const GroupFiles& files) {
+  const std::uint64_t most = value_in(folder + std::string(files.limit), "");  // "max": 0
+  if (most == 0) return kNoBound;
+  const std::uint64_t used = value_in(folder + "/memory.stat", files.used);
+  return most > used ? most - used : 1;
+}
+
+// The least of a group and those that it is in.
+std::uint64_t free_in_groups(std::string group, const GroupFiles& files) {
+  std::uint64_t least = kNoBound;
+  while (true) {
+    least = std::min(least, free_in_group(std::string(files.folder) + group, files));
+    const std::size_t end = group.rfind('/');
+    if (end == std::string::npos) return least;
+    group.erase(end);
+  }
+}
+
+// Of all groups that this process is in: lines NUMBER:WHAT IS BOUNDED:GROUP.
+std::uint64_t free_in_groups() {
+  std::uint64_t least = kNoBound;
+  std::ifstream file("/proc/self/cgroup");
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t what = line.find(':') + 1, group = line.find(':', what) + 1;
+    if (what == 0 || group == 0) continue;
+    const std::string bounded = "," + line.substr(what, group - 1 - what) + ",";
+    const bool is_first = bounded.find(",memory,") != std::string::npos;
+    if (!is_first && bounded != ",,") continue;
+    least = std::min(least, free_in_groups(line.substr(group), is_first ? kFirstGroups : kGroups));
+  }
+  return least;
+}
 
 sigset_t interrupts() {
   sigset_t set;
@@ -82,10 +139,29 @@ void return_failures_of_writes() noexcept {
 bool shows_errors_to_people() noexcept { return isatty(STDERR_FILENO) != 0; }
 
 std::uint64_t peak_memory_bytes() noexcept {
-  constexpr std::uint64_t kBytesPerUnit = 1024;  // Linux counts in kB
   struct rusage usage {};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::uint64_t>(usage.ru_maxrss) * kBytesPerUnit;
+}
+
+std::uint64_t free_memory_bytes() noexcept {
+  try {
+    const std::uint64_t all =
+        value_in("/proc/meminfo", "MemAvailable:") + value_in("/proc/meminfo", "SwapFree:");
+    return std::min(all * kBytesPerUnit, free_in_groups());
+  } catch (...) {
+    return 0;
+  }
+}
+
+// A sanitizer's tables are larger than any memory.
+void bound_memory([[maybe_unused]] std::uint64_t bytes) noexcept {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  struct rlimit limit {};
+  if (getrlimit(RLIMIT_DATA, &limit) != 0 || limit.rlim_cur <= bytes) return;
+  limit.rlim_cur = bytes;
+  setrlimit(RLIMIT_DATA, &limit);
+#endif
 }
 
 void keep_freed_memory() noexcept {

@@ -34,6 +34,13 @@ void return_failures_of_writes() noexcept;
 /// The most memory that the process has had; 0: unknown.
 [[nodiscard]] std::uint64_t peak_memory_bytes() noexcept;
 
+/// What the system, and the groups of processes that this one is in, have free, with swap; 0:
+/// unknown.
+[[nodiscard]] std::uint64_t free_memory_bytes() noexcept;
+/// What the process asks for beyond so many bytes is std::bad_alloc from now on, where the system
+/// has that, unless less is allowed already: else the system would end it without a word.
+void bound_memory(std::uint64_t bytes) noexcept;
+
 /// Memory that is freed stays with the process. Large tables go while others come: what is given
 /// back to the system comes anew, to be cleared. A mesh of 10^6 points takes 8% more memory so, a
 /// quarter fewer pages, and 2% less time, or a tenth where memory is new to the machine.

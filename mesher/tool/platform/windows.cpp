@@ -68,6 +68,10 @@ std::uint64_t peak_memory_bytes() noexcept {
   return counters.PeakWorkingSetSize;
 }
 
+std::uint64_t free_memory_bytes() noexcept { return 0; }
+
+void bound_memory(std::uint64_t) noexcept {}
+
 void keep_freed_memory() noexcept {}
 
 std::FILE* open_to_append(const std::string& path) noexcept {

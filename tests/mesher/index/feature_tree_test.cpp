@@ -21,20 +21,22 @@ using mesher::detail::VertexPool;
 
 const MeshBox<2> kBox{.lo = {-1.5, -1.5}, .side = 4};
 
+// The cells of a level around v hold u.
+bool crowds(const Vertex<2>& v, const Vertex<2>& u, int level) {
+  const auto f = kBox.fixed(v.p), g = kBox.fixed(u.p);
+  const auto apart = [&](std::size_t i) {
+    const int shift = kLevels - level;
+    return std::abs(static_cast<long long>(f[i] >> shift) - static_cast<long long>(g[i] >> shift));
+  };
+  return apart(0) <= 1 && apart(1) <= 1;
+}
+
 // The deepest level at which another point lies in the block of 3 x 3 cells around v, as far as
 // levels go; -1 if there is none.
 int crowded_by_definition(const Vertex<2>& v, const std::vector<Vertex<2>*>& all) {
-  const auto f = kBox.fixed(v.p);
   for (int level = kLevels; level >= 0; --level) {
-    const int shift = kLevels - level;
     for (const auto* u : all) {
-      if (u == &v) continue;
-      const auto g = kBox.fixed(u->p);
-      const auto apart = [&](std::size_t i) {
-        return std::abs(static_cast<long long>(f[i] >> shift) -
-                        static_cast<long long>(g[i] >> shift));
-      };
-      if (apart(0) <= 1 && apart(1) <= 1) return std::min(level, kLevels - 1);
+      if (u != &v && crowds(v, *u, level)) return std::min(level, kLevels - 1);
     }
   }
   return -1;
@@ -104,6 +106,9 @@ TEST_CASE("the tree's crowded levels are those of the definition, and every chan
       for (const auto* u : all) {
         REQUIRE(u->level == crowded_by_definition(*u, all));
         REQUIRE(u->level == tree.crowded_level(*u));
+        const Vertex<2>* other = tree.crowder(u->p);
+        REQUIRE((other == nullptr) == (u->level < 0));
+        REQUIRE((other == nullptr || (other != u && crowds(*u, *other, u->level))));
       }
       for (std::size_t i = 0; i < others.size(); ++i) {
         REQUIRE(said.contains(others[i]) == (others[i]->level != before[i]));

@@ -9,8 +9,8 @@
 //   mesher::write_mesh(m, "mesh.pvtu");    // a piece for each rank
 //
 // What is divided are the simplices and the trace by which the mesh follows edits, which is 10 to
-// 20 times larger than the points. The input itself is held by all ranks; where there are lines or
-// polygons in space, so is the mesh.
+// 20 times larger than the points; and these, if they are all that there is. Else the input is held
+// by all ranks; where there are lines or polygons in space, so is the mesh.
 //
 // Functions "of all" are called by all ranks, in the same order, with equal arguments; each comes
 // to its end in all, and throws in all or in none: an Error of one rank is thrown in all. MPI is
@@ -109,9 +109,11 @@ class MpiMesher {
   /// Of all.
   [[nodiscard]] MpiCounts counts() const;
 
-  /// The points of the last update, on any rank.
+  /// How many points there are on all ranks, of the last update.
   [[nodiscard]] std::size_t size() const noexcept;
-  [[nodiscard]] std::vector<GraphPoint<D>> points() const;
+  /// Of all: they, ascending by id, on rank `to`; none on others.
+  [[nodiscard]] std::vector<GraphPoint<D>> gather_points(int to = 0) const;
+  /// Those of the last update, on any rank.
   [[nodiscard]] std::vector<Polyline> lines() const;
   [[nodiscard]] std::vector<Polygon> polygons() const;
   /// With the limits of size of the last update.
