@@ -13,8 +13,8 @@ namespace support {
 
 enum class Wrong : std::uint8_t { lost, another };
 
-/// D: of the mesh. While it is lossy all exchanges are of tiles' messages, but those in which all
-/// processes are told the same.
+/// D: of the mesh. Tiles' messages follow an agreement on four numbers: whether a process has
+/// failed, and what comes next (TiledMesher::agree_on_next).
 template <int D>
 class LossyPeers final : public mesher::detail::Peers {
  public:
@@ -30,10 +30,13 @@ class LossyPeers final : public mesher::detail::Peers {
 
   [[nodiscard]] std::size_t size() const noexcept override { return peers_->size(); }
   [[nodiscard]] std::size_t self() const noexcept override { return peers_->self(); }
-  void least(Values values) noexcept override { peers_->least(values); }
+  void least(Values values) noexcept override {
+    is_of_tiles_ = values.size() == 4;
+    peers_->least(values);
+  }
   void sum(Values values) noexcept override { peers_->sum(values); }
   [[nodiscard]] std::vector<Bytes> exchange(const Views& out) override {
-    if (!is_lossy_ || out[0].data() == out[1].data()) return peers_->exchange(out);
+    if (!is_lossy_ || !is_of_tiles_ || out[0].data() == out[1].data()) return peers_->exchange(out);
     std::vector<mesher::detail::Packer> packed(out.size());
     Views views;
     for (std::size_t k = 0; k < out.size(); ++k) views.push_back(changed(out[k], packed[k]));
@@ -67,6 +70,7 @@ class LossyPeers final : public mesher::detail::Peers {
   Wrong wrong_;
   std::size_t messages_ = 0;
   bool is_lossy_ = false;
+  bool is_of_tiles_ = false;  // the next exchange
 };
 
 }  // namespace support

@@ -345,17 +345,17 @@ Change<D> JointMesher<D>::update(const RunControl& control, Told told) {
 
 template <int D>
 Change<D> JointMesher<D>::run(const RunControl& control, Told told) {
-  if (!state_->ran() || all_points_ != nullptr) return run_anew(control, told);
+  if (!state_->ran() || all_points_ != nullptr) return run_anew(control, told, 0);
   std::optional<Edits<D>> edits;
   together(*peers_, [&] {
     edits.emplace(Edits<D>{edits_.pending().sorted(), features_.lines(), features_.polygons(),
                            limits_.edit(options_)});
   });
-  if (!state_->takes(*edits)) return run_anew(control, told);
+  if (!state_->takes(*edits)) return run_anew(control, told, 0);
   if (state_->is_sooner_anew(*edits)) {
     std::exception_ptr other;
     try {
-      return run_anew(control, told);
+      return run_anew(control, told, 0);
     } catch (const Error&) {  // it is said in the words of an update
     } catch (...) {
       other = std::current_exception();
@@ -387,14 +387,13 @@ Change<D> JointMesher<D>::run_or_alone(const RunControl& control, Told told) {
   };
   if (auto change = attempt([&] { return run(control, told); })) return std::move(*change);
   if (is_given_up) {
-    if (auto change = attempt([&] { return run_anew(control, told); })) {
+    if (auto change = attempt([&] { return run_anew(control, told, 0); })) {
       return std::move(*change);
     }
   }
-  PointEdits<D> points = points_to_be(PointsOf::all_processes);
-  refuse_alone(control, points);
-  // Calls are those of one process then.
-  return run_anew(control, told, 1, PointsOf::all_processes, std::move(points));
+  SAC_ENSURES(!shares_points());  // tiles of points alone refuse what one process would
+  refuse_alone(control);
+  return run_anew(control, told, 1);  // whose calls are those of one process
 }
 
 // All have failed. One of them may have had no memory to throw what the others have: then none goes
@@ -426,41 +425,23 @@ auto JointMesher<D>::state_for(const Options<D>& options, bool has_features, std
   return make(std::type_identity<TiledState<D>>(), which);
 }
 
-// All that there shall be, as new ones; where points are divided, of this process alone those of
-// directory_.
+// All that there shall be, as new ones; where points are divided, those of directory_.
 template <int D>
-PointEdits<D> JointMesher<D>::points_to_be(PointsOf which) {
-  PointEdits<D> points;
-  together(*peers_, [&] { points = size_ != 0 ? edits_.all(known()) : edits_.pending().sorted(); });
-  if (!shares_points() || which == PointsOf::this_process) return points;
-  std::vector<GraphPoint<D>> mine;
-  together(*peers_, [&] {
-    for (const auto& edit : points) mine.push_back({edit.id, *edit.to});
-  });
-  const std::vector<GraphPoint<D>> all = points_of_all(mine, *peers_);
-  together(*peers_, [&] {
-    Pending<D> pending(box_);
-    for (const auto& p : all) pending.set(p.id, {}, p.at);
-    points = pending.sorted();
-  });
-  return points;
-}
-
-template <int D>
-Change<D> JointMesher<D>::run_anew(const RunControl& control, Told told) {
-  const PointsOf which = shares_points() ? PointsOf::this_process : PointsOf::all_processes;
-  return run_anew(control, told, 0, which, points_to_be(which));
+PointEdits<D> JointMesher<D>::points_to_be() const {
+  return size_ != 0 ? edits_.all(known()) : edits_.pending().sorted();
 }
 
 // A state from the start, of all that there is.
 template <int D>
-Change<D> JointMesher<D>::run_anew(const RunControl& control, Told told, std::size_t tiles,
-                                   PointsOf which, PointEdits<D> points) {
+Change<D> JointMesher<D>::run_anew(const RunControl& control, Told told, std::size_t tiles) {
+  const PointsOf which = shares_points() ? PointsOf::this_process : PointsOf::all_processes;
+  PointEdits<D> points;
   StagedLines lines;
   StagedPolygons polygons;
   Joint fresh;
   typename AnyState<D>::Accept accept;
   together(*peers_, [&] {
+    points = points_to_be();
     lines = all_of(features_.lines()), polygons = all_of(features_.polygons());
     fresh = state_for(limits_.applied_to(options_), lines.has_edits() || polygons.has_edits(),
                       tiles, which);
@@ -476,7 +457,7 @@ Change<D> JointMesher<D>::run_anew(const RunControl& control, Told told, std::si
 
 // What tiles have refused: the first process says why, if it is not to be had at all.
 template <int D>
-void JointMesher<D>::refuse_alone(const RunControl& control, const PointEdits<D>& points) {
+void JointMesher<D>::refuse_alone(const RunControl& control) {
   together(*peers_, [&] {
     if (peers_->self() != 0) return;
     Options<D> now = limits_.applied_to(options_);
@@ -484,7 +465,7 @@ void JointMesher<D>::refuse_alone(const RunControl& control, const PointEdits<D>
     State<D> alone(now);
     const StagedLines lines = all_of(features_.lines());
     const StagedPolygons polygons = all_of(features_.polygons());
-    const Edits<D> edits{points, lines, polygons};
+    const Edits<D> edits{points_to_be(), lines, polygons};
     static_cast<void>(alone.first_run(edits, control, [](Change<D>&) {}));
   });
 }

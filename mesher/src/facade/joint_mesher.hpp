@@ -153,14 +153,12 @@ class JointMesher {
     return directory_ != nullptr && all_points_ == nullptr;
   }
   void know_all_points();
-  [[nodiscard]] PointEdits<D> points_to_be(PointsOf which);
+  [[nodiscard]] PointEdits<D> points_to_be() const;
   void limit_all(const std::vector<AnnouncedLimits<D>>& limits);
   Change<D> run(const RunControl& control, Told told);
   Change<D> run_or_alone(const RunControl& control, Told told);
-  Change<D> run_anew(const RunControl& control, Told told);
-  Change<D> run_anew(const RunControl& control, Told told, std::size_t tiles, PointsOf which,
-                     PointEdits<D> points);
-  void refuse_alone(const RunControl& control, const PointEdits<D>& points);
+  Change<D> run_anew(const RunControl& control, Told told, std::size_t tiles);
+  void refuse_alone(const RunControl& control);
   void require_none(const std::exception_ptr& other);
   [[nodiscard]] Part part_from_last(Change<D>& whole) const;
   [[nodiscard]] Change<D> told_of(Part part, Told told) const;

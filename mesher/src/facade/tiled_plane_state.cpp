@@ -48,9 +48,8 @@ std::optional<TileMesher<2>::Located> TiledPlaneState::located(const Vertex<2>& 
   return Located(v.level, world_->limits.pitch(v.p), v.feature ? Role() : vertices().role(v));
 }
 
-// Of all that is there, so many; null: they do not agree (TiledMesher::first_run).
-auto TiledPlaneState::try_build(std::size_t wanted, const Tiles::Ask& ask)
-    -> std::unique_ptr<Tiles> {
+// Of all that is there.
+auto TiledPlaneState::build(const Tiles::Ask& ask) -> std::unique_ptr<Tiles> {
   std::unique_ptr<Tiles> tiles;
   Tiles::Edits by_tile;
   std::shared_ptr<CommonOrders<2>> common;
@@ -61,7 +60,8 @@ auto TiledPlaneState::try_build(std::size_t wanted, const Tiles::Ask& ask)
     });
     const WholeInput<2> whole{&pool(), &world_->features.tree(), nullptr,
                               peers_.is_alone() ? nullptr : &numbers_};
-    tiles = make_tiles(std::move(places), wanted, options_, box_, world_->limits, peers_, whole);
+    tiles =
+        make_tiles(std::move(places), tiles_wanted_, options_, box_, world_->limits, peers_, whole);
     by_tile.resize(tiles->size());
     told_points_.assign(pool().end_of_handles(), std::nullopt);
     pool().for_each([&](const Vertex<2>& v) {
@@ -87,12 +87,8 @@ auto TiledPlaneState::try_build(std::size_t wanted, const Tiles::Ask& ask)
     world_->leaves.for_each([&](const Leaf& leaf) { lines.leaves.push_back({leaf.piece, true}); });
   });
   const Held held(world_->features);
-  return tiles->first_run(by_tile, ask, common) ? std::move(tiles) : nullptr;
-}
-
-auto TiledPlaneState::build(const Tiles::Ask& ask) -> std::unique_ptr<Tiles> {
-  if (auto tiles = try_build(tiles_wanted_, ask)) return tiles;
-  return try_build(1, ask);
+  tiles->first_run(by_tile, ask, common);
+  return tiles;
 }
 
 // Those that have none, in the order of their ends.

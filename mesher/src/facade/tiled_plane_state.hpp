@@ -63,7 +63,6 @@ class TiledPlaneState final : public PlaneState, public PartOfMesh<2> {
     std::vector<SegmentHandle> gone;
   };
 
-  [[nodiscard]] std::unique_ptr<Tiles> try_build(std::size_t wanted, const Tiles::Ask& ask);
   [[nodiscard]] std::unique_ptr<Tiles> build(const Tiles::Ask& ask);
   [[nodiscard]] std::optional<Located> located(const Vertex<2>& v) const;
   void find_news(const Edits<2>& edits, News& news);

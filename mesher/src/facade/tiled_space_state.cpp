@@ -46,9 +46,8 @@ auto TiledSpaceState::now(const Vertex<3>& v) const -> Told {
   return {Located(v.level, world_->limits.pitch(v.p), role), v.feature};
 }
 
-// Of all that is there, so many; null: they do not agree (TiledMesher::first_run).
-auto TiledSpaceState::try_build(std::size_t wanted, const Tiles::Ask& ask)
-    -> std::unique_ptr<Tiles> {
+// Of all that is there.
+auto TiledSpaceState::build(const Tiles::Ask& ask) -> std::unique_ptr<Tiles> {
   std::unique_ptr<Tiles> tiles;
   Tiles::Edits by_tile;
   std::shared_ptr<CommonOrders<3>> common;
@@ -59,7 +58,8 @@ auto TiledSpaceState::try_build(std::size_t wanted, const Tiles::Ask& ask)
     });
     WholeInput<3> whole{nullptr, nullptr, &store()};
     if (!peers_.is_alone()) whole.lines = &edge_numbers_, whole.polygons = &polygon_numbers_;
-    tiles = make_tiles(std::move(places), wanted, options_, box_, world_->limits, peers_, whole);
+    tiles =
+        make_tiles(std::move(places), tiles_wanted_, options_, box_, world_->limits, peers_, whole);
     by_tile.resize(tiles->size());
     common = std::make_shared<CommonOrders<3>>();
     FeatureOrders& orders = common->features_in_space;
@@ -80,12 +80,8 @@ auto TiledSpaceState::try_build(std::size_t wanted, const Tiles::Ask& ask)
     number(orders);
     edge_numbers_.commit(), polygon_numbers_.commit();
   });
-  return tiles->first_run(by_tile, ask, common) ? std::move(tiles) : nullptr;
-}
-
-auto TiledSpaceState::build(const Tiles::Ask& ask) -> std::unique_ptr<Tiles> {
-  if (auto tiles = try_build(tiles_wanted_, ask)) return tiles;
-  return try_build(1, ask);
+  tiles->first_run(by_tile, ask, common);
+  return tiles;
 }
 
 // Those that have none: edges in the order of their ends, polygons of their ids.

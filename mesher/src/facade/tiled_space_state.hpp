@@ -69,7 +69,6 @@ class TiledSpaceState final : public SpaceState, public PartOfMesh<3> {
     Role role{};
   };
 
-  [[nodiscard]] std::unique_ptr<Tiles> try_build(std::size_t wanted, const Tiles::Ask& ask);
   [[nodiscard]] std::unique_ptr<Tiles> build(const Tiles::Ask& ask);
   [[nodiscard]] Told now(const Vertex<3>& v) const;
   void find_news(const Edits<3>& edits, News& news);

@@ -122,43 +122,34 @@ void TiledState<D>::find_levels(std::size_t threads) {
 }
 
 template <int D>
-auto TiledState<D>::make_some(std::size_t wanted) const -> std::unique_ptr<TiledMesher<D>> {
+auto TiledState<D>::make_all() const -> std::unique_ptr<TiledMesher<D>> {
   std::vector<Point<D>> places = sample_;
   if (!is_divided()) {
     places.reserve(ids_.size());
     points_.for_each([&](const Vertex<D>& v) { places.push_back(v.p); });
   }
-  return make_tiles(std::move(places), wanted, options_, box_, limits_, peers_,
+  return make_tiles(std::move(places), tiles_wanted_, options_, box_, limits_, peers_,
                     WholeInput<D>{nullptr, &features_});
 }
 
-// With the points that there are; false: they do not agree (TiledMesher::first_run).
-template <int D>
-bool TiledState<D>::start(TiledMesher<D>& tiles, const typename TiledMesher<D>::Ask& ask) {
-  TileEdits by_tile;
-  together(peers_, [&] {
-    by_tile.resize(tiles.size());
-    if (!is_divided()) find_levels(static_cast<std::size_t>(options_.threads));
-    points_.for_each([&](Vertex<D>& v) {
-      names_[v.self].level = v.level;
-      const auto tile = tiles.own_tile(v.p);
-      if (tile) by_tile[*tile].push_back({v.p, std::nullopt, Located(v.level, limits_.pitch(v.p))});
-    });
-  });
-  const Held held(features_);
-  return tiles.first_run(by_tile, ask);
-}
-
-// Where points are divided one process cannot have them all.
+// Tiles of the points that there are.
 template <int D>
 auto TiledState<D>::build(const typename TiledMesher<D>::Ask& ask)
     -> std::unique_ptr<TiledMesher<D>> {
   std::unique_ptr<TiledMesher<D>> tiles;
-  together(peers_, [&] { tiles = make_some(tiles_wanted_); });
-  if (start(*tiles, ask)) return tiles;
-  if (is_divided()) throw NotInTiles();
-  together(peers_, [&] { tiles = make_some(1); });
-  static_cast<void>(start(*tiles, ask));
+  TileEdits by_tile;
+  together(peers_, [&] {
+    tiles = make_all();
+    by_tile.resize(tiles->size());
+    if (!is_divided()) find_levels(static_cast<std::size_t>(options_.threads));
+    points_.for_each([&](Vertex<D>& v) {
+      names_[v.self].level = v.level;
+      const auto tile = tiles->own_tile(v.p);
+      if (tile) by_tile[*tile].push_back({v.p, std::nullopt, Located(v.level, limits_.pitch(v.p))});
+    });
+  });
+  const Held held(features_);
+  tiles->first_run(by_tile, ask);
   return tiles;
 }
 
@@ -319,7 +310,7 @@ void TiledState<D>::insert_divided(const PointEdits<D>& share) {
   const std::size_t all = static_cast<std::size_t>(options_.threads) * peers_.size();
   sample_ = sample_of_all<D>(share, tiles_wanted_ != 0 ? tiles_wanted_ : all, peers_);
   std::unique_ptr<TiledMesher<D>> tiles;  // that say whose each point is
-  together(peers_, [&] { tiles = make_some(tiles_wanted_); });
+  together(peers_, [&] { tiles = make_all(); });
   const PointEdits<D> here = arrivals_here<D>(share, box_, *tiles, peers_);
   Clashes<D> clashes(box_);
   Moves moves;

@@ -41,8 +41,8 @@ class TiledState final : public AnyState<D>, public PartOfMesh<D> {
   TiledState(const Options<D>& options, Peers& peers, std::size_t tiles = 0,
              PointsOf points = PointsOf::all_processes);
 
-  /// Where there are limits of size or of angles, or points are divided, this and propagate() throw
-  /// NotInTiles, too; propagate() also NotInTilesYet.
+  /// Where there are limits of size or of angles, this and propagate() throw NotInTiles, too;
+  /// propagate() also NotInTilesYet.
   Change<D> first_run(Edits<D> edits, const RunControl& control, const Accept& accept) override;
   /// Points, and limits of size.
   [[nodiscard]] bool takes(const Edits<D>& edits) const noexcept override;
@@ -102,8 +102,7 @@ class TiledState final : public AnyState<D>, public PartOfMesh<D> {
     }
   };
 
-  [[nodiscard]] std::unique_ptr<TiledMesher<D>> make_some(std::size_t wanted) const;
-  [[nodiscard]] bool start(TiledMesher<D>& tiles, const typename TiledMesher<D>::Ask& ask);
+  [[nodiscard]] std::unique_ptr<TiledMesher<D>> make_all() const;
   [[nodiscard]] std::unique_ptr<TiledMesher<D>> build(const typename TiledMesher<D>::Ask& ask);
   void find_levels(std::size_t threads);
   VertexHandle add_record(PointId id, const Point<D>& p);

@@ -79,7 +79,7 @@ void agree(Peers& peers, const std::exception_ptr& failure, Peers::Values values
     if (failure) std::rethrow_exception(failure);
     return;
   }
-  std::array<std::uint64_t, 5> all{failure ? 0u : 1u};
+  std::array<std::uint64_t, 4> all{failure ? 0u : 1u};
   SAC_EXPECTS(values.size() < all.size());
   std::copy(values.begin(), values.end(), all.begin() + 1);
   peers.least(Peers::Values(all).first(values.size() + 1));

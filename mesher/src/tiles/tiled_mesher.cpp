@@ -103,14 +103,12 @@ void TiledMesher<D>::watch(const Ask& ask) {
   }
 }
 
-// Those that run while tiles come to agree.
 template <int D>
-std::uint64_t TiledMesher<D>::calls_allowed() const noexcept {
+void TiledMesher<D>::bound_calls() noexcept {
   constexpr std::uint64_t kFew = 1 << 16;  // more than that, and than
   constexpr std::uint64_t kTimes = 4;      // times those that there are, are too many
-  std::uint64_t most = kFew;
-  for (const auto& tile : tiles_) most += kTimes * tile->engine().live_calls();
-  return most;
+  most_calls_ = kFew;
+  for (const auto& tile : tiles_) most_calls_ += kTimes * tile->engine().live_calls();
 }
 
 template <int D>
@@ -159,7 +157,7 @@ void TiledMesher<D>::sort_messages() {
 template <int D>
 auto TiledMesher<D>::agree_on_next() -> Next {
   constexpr std::uint64_t kNone = ~std::uint64_t{0};
-  std::array<std::uint64_t, 4> next{kNone, 1, 1, 1};
+  std::array<std::uint64_t, 3> next{kNone, 1, 1};
   for (const auto& waiting : waiting_) {
     if (waiting.is_empty()) continue;
     const auto [stage, bucket] = waiting.first();
@@ -169,11 +167,9 @@ auto TiledMesher<D>::agree_on_next() -> Next {
     if (tile->is_dirty()) next[1] = 0;
     if (tile->border().has_faults()) next[2] = 0;
   }
-  if (phase_ != Phase::update && all_.size() > 1 && calls() > calls_allowed()) next[3] = 0;
   agree(next);
   const Time first{static_cast<Stage>(next[0] >> 32), static_cast<std::uint32_t>(next[0])};
-  return {next[0] == kNone ? std::nullopt : std::optional(first), next[1] == 0, next[2] == 0,
-          next[3] == 0};
+  return {next[0] == kNone ? std::nullopt : std::optional(first), next[1] == 0, next[2] == 0};
 }
 
 // What a tile says until then, to whom it concerns.
@@ -240,15 +236,13 @@ bool TiledMesher<D>::try_nearer() {
   return is_none == 0;
 }
 
-// Messages that wait are sent first. Not to the end, if is_in_vain_ is so then.
+// Messages that wait are sent first.
 template <int D>
 void TiledMesher<D>::settle(Changes* changes) {
   for (const auto& tile : tiles_) tile->reset_nearness();
   while (true) {
     attempt([&] { sort_messages(); });
     const Next next = agree_on_next();
-    is_in_vain_ = next.is_in_vain;
-    if (is_in_vain_) return;
     const bool is_settled = !next.first && !next.is_dirty;
     if (is_settled && !(next.has_faults && try_nearer())) return;
     if (next.first) exchange(*next.first);
@@ -344,7 +338,7 @@ void TiledMesher<D>::require_all() {
 // --- Runs ------------------------------------------------------------------------------------
 
 template <int D>
-bool TiledMesher<D>::first_run(const Edits& edits, const Ask& ask, const Common& common) {
+void TiledMesher<D>::first_run(const Edits& edits, const Ask& ask, const Common& common) {
   attempt([&] { watch(ask); });
   auto mark = std::chrono::steady_clock::now();
   const auto begin = [&](Phase phase) {
@@ -357,7 +351,6 @@ bool TiledMesher<D>::first_run(const Edits& edits, const Ask& ask, const Common&
     mark = now;
   };
   const auto run_all = [&](std::uint64_t calls, auto&& part) {
-    if (is_in_vain_) return;
     attempt([&] {
       for_each_tile(calls, [&](std::size_t t) {
         part(*tiles_[t], t);
@@ -365,7 +358,7 @@ bool TiledMesher<D>::first_run(const Edits& edits, const Ask& ask, const Common&
       });
     });
     settle(nullptr);
-    if (!is_in_vain_) require_all();
+    require_all();
   };
   constexpr std::uint64_t kMany = ~std::uint64_t{0};
   begin(Phase::quadtree);
@@ -383,8 +376,7 @@ bool TiledMesher<D>::first_run(const Edits& edits, const Ask& ask, const Common&
     return static_cast<int>(least_of(least));
   };
   const int parts = least([](const TileMesher<D>& tile) { return tile.parts(); });
-  for (int done = 0;
-       done < parts && !is_in_vain_;) {  // those in which nothing waits run with the next one
+  for (int done = 0; done < parts;) {  // those in which nothing waits run with the next one
     const int first = done;
     done = std::min(least([&](const TileMesher<D>& tile) { return tile.next_part(first); }) + 1,
                     parts);
@@ -400,7 +392,6 @@ bool TiledMesher<D>::first_run(const Edits& edits, const Ask& ask, const Common&
   run_all(kMany, [&](TileMesher<D>& tile, std::size_t) { tile.run_stars(); });
   end();
   unwatch();
-  return !is_in_vain_;
 }
 
 template <int D>
@@ -428,7 +419,7 @@ void TiledMesher<D>::update(const Edits& edits, const Ask& ask,
                             const std::function<void(Changes&)>& last, const Common& common) {
   require_sound();
   phase_ = Phase::update;
-  most_calls_ = calls_allowed();
+  bound_calls();
   attempt([&] { watch(ask); });
   agree();
   is_exact_ = false;

@@ -113,10 +113,8 @@ class TiledMesher {
   /// Throws: Error, sac::Cancelled, std::bad_alloc, what `ask` throws: good for nothing then. What
   /// is thrown in one process is thrown in all, as by agree().
   /// `common`: null where there is nothing to be told.
-  /// False: in some process several times the calls that there are have run, and tiles do not agree
-  /// yet; it is good for nothing then, and one tile is sooner done. Not so of one tile.
   using Common = std::shared_ptr<const CommonOrders<D>>;
-  [[nodiscard]] bool first_run(const Edits& edits, const Ask& ask, const Common& common = nullptr);
+  void first_run(const Edits& edits, const Ask& ask, const Common& common = nullptr);
   /// Makes the edits; last(changes) is called, with those of this process, when all agree; it
   /// throws in all processes or in none. Throws: likewise, and what `last` throws: then the whole
   /// input must be put back, and the edits taken back.
@@ -192,7 +190,6 @@ class TiledMesher {
     std::optional<Time> first;  // of the messages that wait
     bool is_dirty;
     bool has_faults;
-    bool is_in_vain;
   };
   [[nodiscard]] Next agree_on_next();
   void sort_messages();
@@ -211,7 +208,7 @@ class TiledMesher {
   void number_vertices(std::size_t t, Part& part) const;
   void list_simplices(std::size_t t, std::vector<Part>& parts, Others& others) const;
   void require_sound() const;
-  [[nodiscard]] std::uint64_t calls_allowed() const noexcept;
+  void bound_calls() noexcept;
   void edit_all(const Edits& edits, const Common& common);
   void commit_lines() noexcept;
 
@@ -243,7 +240,6 @@ class TiledMesher {
   std::atomic<std::uint64_t> calls_ = 0;
   std::uint64_t most_calls_ = ~std::uint64_t{0};
   std::atomic<bool> gives_up_ = false;
-  bool is_in_vain_ = false;  // a first run, of all processes
 };
 
 }  // namespace mesher::detail
