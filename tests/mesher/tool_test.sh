@@ -425,9 +425,9 @@ for engine in '' --static; do
 done
 
 echo "== long runs say how far they are, to people"
-# on_terminal COMMAND...: for 3.5 seconds
+# on_terminal COMMAND...: for 8 seconds
 on_terminal() {
-  timeout -s INT 3.5 script -qefc "$(printf '%q ' "$@")" /dev/null </dev/null
+  timeout -s INT 8 script -qefc "$(printf '%q ' "$@")" /dev/null </dev/null
 }
 if command -v script >/dev/null; then
   # It takes more than the two seconds after which they are told.
