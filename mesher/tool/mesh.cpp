@@ -92,6 +92,11 @@ Box<D> made_box(const MeshArguments& args, const Input<D>& input, const mesher::
   return {mesher::box_mesh(input.graph(), options, &report, control, !args.stats.empty()), {}, {}};
 }
 
+// Inputs that need more are seen early; out of core other things count.
+bool is_bound_by_memory(const MeshArguments& args) {
+  return args.max_vertices.empty() && args.out_of_core.empty();
+}
+
 template <int D>
 Kept<D> kept_of_box(const MeshArguments& args, Box<D> box, const mesher::Options<D>& options,
                     const Input<D>& input) {
@@ -112,7 +117,7 @@ Box<D> box_mesh(const MeshArguments& args, const Input<D>& input, const mesher::
   mesher::RunReport report;
   Box<D> box = locating(input, [&] {
     const StopPolitely stop;
-    return within_memory(args.max_vertices.empty() && args.out_of_core.empty(), [&] {
+    return within_memory(is_bound_by_memory(args), [&] {
       return made_box(args, input, options, report, progress.control());
     });
   });
@@ -154,10 +159,7 @@ template <int D>
 void run_mesh_in(const MeshArguments& args) {
   const auto input = read_input<D>(args);
   auto options = mesh_options(args, input);
-  // Inputs that need more are seen early; out of core other things count.
-  if (options.max_vertices == 0 && args.out_of_core.empty()) {
-    options.max_vertices = most_vertices_in_memory(D);
-  }
+  if (is_bound_by_memory(args)) options.max_vertices = most_vertices_in_memory(D);
   Outputs<D> outputs;
   open_outputs(args, input, outputs);
   Figures figures(args.stats, outputs);

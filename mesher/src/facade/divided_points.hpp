@@ -11,6 +11,7 @@
 
 #include "facade/edits.hpp"
 #include "index/feature_tree.hpp"
+#include "sets/make_set.hpp"
 #include "tiles/tiled_mesher.hpp"
 
 namespace mesher::detail {
@@ -131,8 +132,7 @@ std::vector<NamedPlace<D>> crowders_elsewhere(const std::vector<VertexHandle>& w
         found.push_back(rest.template take<NamedPlace<D>>());
       }
     }
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    make_set(found);
   });
   return found;
 }

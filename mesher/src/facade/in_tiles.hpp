@@ -68,8 +68,8 @@ template <int D>
 template <int D>
 [[nodiscard]] bool changes_all_limits(const Edits<D>& edits) noexcept;
 
-/// What several processes have of one mesh that they keep together, each with a state of the whole
-/// input. Functions that are said to be of all are called by all of them, in the same order.
+/// What several processes have of one mesh that they keep together, each with a state. Functions
+/// that are said to be of all are called by all of them, in the same order.
 template <int D>
 class PartOfMesh {
  public:
@@ -81,8 +81,6 @@ class PartOfMesh {
   [[nodiscard]] virtual Change<D> whole() const = 0;
   /// Whether changes, as accept() and the caller see them, are those of all processes.
   [[nodiscard]] virtual bool tells_all() const noexcept { return false; }
-  /// Whether each process has points of its own, and no others.
-  [[nodiscard]] virtual bool is_divided() const noexcept { return false; }
   /// Whether there may be lines or polygons.
   [[nodiscard]] virtual bool has_features() const noexcept { return true; }
 };

@@ -204,9 +204,7 @@ const KnownPoints<D>& JointMesher<D>::known() const noexcept {
 
 template <int D>
 void JointMesher<D>::know_all_points() {
-  std::vector<GraphPoint<D>> mine;
-  together(*peers_, [&] { mine = directory_->points(); });
-  std::vector<GraphPoint<D>> all = points_of_all(mine, *peers_);
+  std::vector<GraphPoint<D>> all = told_points(peers_->size());
   together(*peers_, [&] { all_points_ = std::make_unique<AllPoints<D>>(std::move(all), box_); });
 }
 
@@ -250,13 +248,10 @@ void JointMesher<D>::collect_all(const RunControl& control) {
   const std::vector<Bytes> all = peers_->gather(mine.bytes());
   std::vector<AnnouncedLimits<D>> limits;
   together(*peers_, [&] {
-    using Judged = typename AnnouncedPoints<D>::Judged;
     std::vector<Unpacker> rest(all.begin(), all.end());
     for (Unpacker& some : rest) {
       for (const Announcement& edit : some.template take_all<Announcement>()) {
-        if (edit.kind == Kind::insert) edits_.insert(known(), edit.id, edit.p, Judged::at_the_end);
-        if (edit.kind == Kind::remove) edits_.remove(known(), edit.id);
-        if (edit.kind == Kind::move) edits_.move(known(), edit.id, edit.p);
+        edit.make(known(), edits_);
       }
     }
     edits_.require_apart(known());
@@ -619,20 +614,22 @@ std::vector<mesher::Polygon> JointMesher<D>::polygons() const {
 template <int D>
 std::vector<GraphPoint<D>> JointMesher<D>::gather_points(std::size_t to) const {
   std::vector<GraphPoint<D>> points;
-  if (directory_ == nullptr) {
-    together(*peers_, [&] {
-      if (peers_->self() == to) points = state_->points();
-    });
-    return points;
-  }
-  Packer mine;
   together(*peers_, [&] {
     SAC_EXPECTS(to < peers_->size());
-    mine.put_all(directory_->points());
+    if (directory_ == nullptr && peers_->self() == to) points = state_->points();
   });
+  return directory_ == nullptr ? points : told_points(to);
+}
+
+// Where points are divided: to one process, or to all if it is nobody's number.
+template <int D>
+std::vector<GraphPoint<D>> JointMesher<D>::told_points(std::size_t to) const {
+  Packer mine;
+  together(*peers_, [&] { mine.put_all(directory_->points()); });
   const std::vector<Bytes> parts = tell_to(*peers_, to, mine.bytes());
+  std::vector<GraphPoint<D>> points;
   together(*peers_, [&] {
-    if (peers_->self() != to) return;
+    if (peers_->self() != to && to < peers_->size()) return;
     for (const Bytes& part : parts) append(points, Unpacker(part).take_all<GraphPoint<D>>());
     std::sort(points.begin(), points.end(),
               [](const auto& a, const auto& b) { return a.id < b.id; });
@@ -709,7 +706,6 @@ template <int D>
 void JointMesher<D>::check_invariants() const {
   if (!state_->ran()) return;
   state_->check_invariants();
-  SAC_INVARIANT(part_->is_divided() == (directory_ != nullptr));
   if (directory_ == nullptr) return;
   std::array<std::uint64_t, 2> known{directory_->size(), state_->size()};
   peers_->sum(known);

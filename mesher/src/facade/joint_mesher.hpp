@@ -152,6 +152,7 @@ class JointMesher {
   [[nodiscard]] bool shares_points() const noexcept {
     return directory_ != nullptr && all_points_ == nullptr;
   }
+  [[nodiscard]] std::vector<GraphPoint<D>> told_points(std::size_t to) const;
   void know_all_points();
   [[nodiscard]] PointEdits<D> points_to_be() const;
   void limit_all(const std::vector<AnnouncedLimits<D>>& limits);

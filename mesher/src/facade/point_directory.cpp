@@ -2,9 +2,10 @@
 #include "facade/point_directory.hpp"
 
 #include <algorithm>
-#include <limits>
-#include <tuple>
+#include <array>
+#include <utility>
 
+#include "facade/make_room.hpp"
 #include "sac/label.hpp"
 
 namespace mesher::detail {
@@ -18,48 +19,16 @@ struct Numbered {
   typename PointDirectory<D>::Announcement edit;
 };
 
-// What a process refuses, and the number of its announcement.
-struct Refused {
-  std::uint64_t from, number;
-  Error error;
-};
+}  // namespace
 
 template <int D>
-void make(const typename PointDirectory<D>::Announcement& edit, const KnownPoints<D>& known,
-          AnnouncedPoints<D>& edits) {
-  using Kind = typename PointDirectory<D>::Kind;
+void PointDirectory<D>::Announcement::make(const KnownPoints<D>& known,
+                                           AnnouncedPoints<D>& edits) const {
   using Judged = typename AnnouncedPoints<D>::Judged;
-  if (edit.kind == Kind::insert) edits.insert(known, edit.id, edit.p, Judged::at_the_end);
-  if (edit.kind == Kind::remove) edits.remove(known, edit.id);
-  if (edit.kind == Kind::move) edits.move(known, edit.id, edit.p);
+  if (kind == Kind::insert) edits.insert(known, id, p, Judged::at_the_end);
+  if (kind == Kind::remove) edits.remove(known, id);
+  if (kind == Kind::move) edits.move(known, id, p);
 }
-
-// The first that any process has refused is thrown in all. Of all.
-void require_none(const std::optional<Refused>& mine, Peers& peers) {
-  std::uint64_t is_none = mine ? 0 : 1;
-  peers.least({&is_none, 1});
-  if (is_none != 0) return;
-  Packer packed;
-  together(peers, [&] {
-    if (!mine) return;
-    packed.put(mine->from), packed.put(mine->number);
-    pack(mine->error, packed);
-  });
-  const std::vector<Bytes> told = peers.gather(packed.bytes());
-  together(peers, [&] {
-    std::optional<Refused> first;
-    for (const Bytes& one : told) {
-      if (one.empty()) continue;
-      Unpacker rest(one);
-      const auto from = rest.take<std::uint64_t>(), number = rest.take<std::uint64_t>();
-      if (first && std::tie(first->from, first->number) < std::tie(from, number)) continue;
-      first.emplace(Refused{from, number, unpack_error(rest)});
-    }
-    throw Error(first->error);
-  });
-}
-
-}  // namespace
 
 template <int D>
 std::size_t PointDirectory<D>::process_of(PointId id) const noexcept {
@@ -93,7 +62,8 @@ void PointDirectory<D>::collect(const std::vector<Announcement>& announced,
     }
   });
   std::vector<Bytes> come = told_each(out, peers_);
-  std::optional<Refused> refused;
+  using Number = std::array<std::uint64_t, 2>;  // of an announcement: its process, and there
+  std::optional<std::pair<Number, Error>> refused;
   together(peers_, [&] {
     std::uint64_t from = 0, number = 0;
     try {
@@ -101,15 +71,15 @@ void PointDirectory<D>::collect(const std::vector<Announcement>& announced,
         for (Unpacker rest(come[from]); !rest.is_empty();) {
           const auto next = rest.take<Numbered<D>>();
           number = next.number;
-          make<D>(next.edit, *this, edits);
+          next.edit.make(*this, edits);
         }
         come[from] = {};
       }
     } catch (const Error& error) {
-      refused.emplace(Refused{from, number, error});
+      refused.emplace(Number{from, number}, error);
     }
   });
-  require_none(refused, peers_);
+  require_none(peers_, refused);
 }
 
 template <int D>
@@ -119,10 +89,7 @@ void PointDirectory<D>::prepare(const Pending<D>& edits) {
   for (const auto& edit : prepared_) {
     if (!edit.was) coming_.emplace(edit.id, *edit.to);
   }
-  if (places_.bucket_count() * places_.max_load_factor() <
-      static_cast<float>(places_.size() + coming_.size())) {
-    places_.reserve(std::max(places_.size() + coming_.size(), 2 * places_.size()));
-  }
+  make_room_for(places_, coming_);
 }
 
 template <int D>
@@ -131,28 +98,8 @@ void PointDirectory<D>::commit() noexcept {
     if (edit.was && edit.to) places_.find(edit.id)->second = *edit.to;
     if (!edit.to) places_.erase(edit.id);
   }
-  while (!coming_.empty()) places_.insert(coming_.extract(coming_.begin()));
+  places_.merge(coming_);
   prepared_ = {}, coming_ = Places();
-}
-
-template <int D>
-std::vector<GraphPoint<D>> points_of_all(const std::vector<GraphPoint<D>>& known, Peers& peers) {
-  Packer mine;
-  together(peers, [&] {
-    for (const auto& p : known) mine.put(NamedPlace<D>{p.id, p.at});
-  });
-  const std::vector<Bytes> told = peers.gather(mine.bytes());
-  std::vector<GraphPoint<D>> all;
-  together(peers, [&] {
-    for (const Bytes& some : told) {
-      for (Unpacker rest(some); !rest.is_empty();) {
-        const auto p = rest.take<NamedPlace<D>>();
-        all.push_back({p.id, p.p});
-      }
-    }
-    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
-  });
-  return all;
 }
 
 template <int D>
@@ -182,15 +129,11 @@ auto AllPoints<D>::obstacle(const Point<D>& p) const
   return typename KnownPoints<D>::Named{there.id, there.at};
 }
 
-#define MESHER_INSTANTIATE(D)                                                                   \
-  template class PointDirectory<D>;                                                             \
-  template std::vector<GraphPoint<D>> points_of_all(const std::vector<GraphPoint<D>>&, Peers&); \
-  template class AllPoints<D>
-
-MESHER_INSTANTIATE(2);
+template class PointDirectory<2>;
+template class AllPoints<2>;
 #ifndef MESHER_PLANE_ONLY
-MESHER_INSTANTIATE(3);
+template class PointDirectory<3>;
+template class AllPoints<3>;
 #endif
-#undef MESHER_INSTANTIATE
 
 }  // namespace mesher::detail

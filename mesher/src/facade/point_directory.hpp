@@ -19,6 +19,8 @@ class PointDirectory final : public KnownPoints<D> {
     Kind kind;
     PointId id;
     Point<D> p;
+    /// In `edits`. Throws: as that.
+    void make(const KnownPoints<D>& known, AnnouncedPoints<D>& edits) const;
   };
 
   explicit PointDirectory(Peers& peers) : peers_(peers) {}
@@ -48,11 +50,6 @@ class PointDirectory final : public KnownPoints<D> {
   std::vector<typename Pending<D>::Edit> prepared_;
   Places coming_;
 };
-
-/// The points that all processes know of, in each, ascending by id; each is known to one. Of all.
-template <int D>
-[[nodiscard]] std::vector<GraphPoint<D>> points_of_all(const std::vector<GraphPoint<D>>& known,
-                                                       Peers& peers);
 
 /// All points, where each process has had those of others told.
 template <int D>

@@ -132,24 +132,29 @@ auto TiledState<D>::make_all() const -> std::unique_ptr<TiledMesher<D>> {
                     WholeInput<D>{nullptr, &features_});
 }
 
-// Tiles of the points that there are.
+// With the points that there are.
 template <int D>
-auto TiledState<D>::build(const typename TiledMesher<D>::Ask& ask)
-    -> std::unique_ptr<TiledMesher<D>> {
-  std::unique_ptr<TiledMesher<D>> tiles;
+void TiledState<D>::start(TiledMesher<D>& tiles, const typename TiledMesher<D>::Ask& ask) {
   TileEdits by_tile;
   together(peers_, [&] {
-    tiles = make_all();
-    by_tile.resize(tiles->size());
+    by_tile.resize(tiles.size());
     if (!is_divided()) find_levels(static_cast<std::size_t>(options_.threads));
     points_.for_each([&](Vertex<D>& v) {
       names_[v.self].level = v.level;
-      const auto tile = tiles->own_tile(v.p);
+      const auto tile = tiles.own_tile(v.p);
       if (tile) by_tile[*tile].push_back({v.p, std::nullopt, Located(v.level, limits_.pitch(v.p))});
     });
   });
   const Held held(features_);
-  tiles->first_run(by_tile, ask);
+  tiles.first_run(by_tile, ask);
+}
+
+template <int D>
+auto TiledState<D>::build(const typename TiledMesher<D>::Ask& ask)
+    -> std::unique_ptr<TiledMesher<D>> {
+  std::unique_ptr<TiledMesher<D>> tiles;
+  together(peers_, [&] { tiles = make_all(); });
+  start(*tiles, ask);
   return tiles;
 }
 
@@ -166,10 +171,16 @@ Change<D> TiledState<D>::first_run(Edits<D> edits, const RunControl& control,
     }
   });
   if (is_divided()) {
-    insert_divided(edits.points);
-    edits.points = {};
+    sample_ = sample_of_all<D>(
+        edits.points, tiles_wanted_ != 0 ? tiles_wanted_ : options_.threads * peers_.size(),
+        peers_);
   }
-  in_tiles([&] { tiles_ = build(ask); }, limits_.any() || bounds_dihedrals(options_));
+  std::unique_ptr<TiledMesher<D>> tiles;
+  together(peers_, [&] { tiles = make_all(); });
+  if (is_divided()) insert_divided(edits.points, *tiles);
+  edits.points = {};
+  in_tiles([&] { start(*tiles, ask); }, limits_.any() || bounds_dihedrals(options_));
+  tiles_ = std::move(tiles);
   Change<D> change;
   together(peers_, [&] { change = whole(); });
   set_first(stats_, change, *tiles_);
@@ -304,14 +315,10 @@ void TiledState<D>::take_back(Moves moves) {
 
 // --- Divided points --------------------------------------------------------------------------
 
-// Where the cuts will be, and the points of this process.
+// Of a first run: the points of this process.
 template <int D>
-void TiledState<D>::insert_divided(const PointEdits<D>& share) {
-  const std::size_t all = static_cast<std::size_t>(options_.threads) * peers_.size();
-  sample_ = sample_of_all<D>(share, tiles_wanted_ != 0 ? tiles_wanted_ : all, peers_);
-  std::unique_ptr<TiledMesher<D>> tiles;  // that say whose each point is
-  together(peers_, [&] { tiles = make_all(); });
-  const PointEdits<D> here = arrivals_here<D>(share, box_, *tiles, peers_);
+void TiledState<D>::insert_divided(const PointEdits<D>& share, const TiledMesher<D>& tiles) {
+  const PointEdits<D> here = arrivals_here<D>(share, box_, tiles, peers_);
   Clashes<D> clashes(box_);
   Moves moves;
   together(peers_, [&] {
@@ -325,7 +332,7 @@ void TiledState<D>::insert_divided(const PointEdits<D>& share) {
   });
   clashes.require_none(peers_);
   together(peers_, [&] { find_levels(static_cast<std::size_t>(options_.threads)); });
-  ask_others(*tiles, moves);
+  ask_others(tiles, moves);
 }
 
 // The edits of all processes become those of points of this one, and of others'.

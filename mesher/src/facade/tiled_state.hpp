@@ -58,9 +58,6 @@ class TiledState final : public AnyState<D>, public PartOfMesh<D> {
   [[nodiscard]] Mesh<D> own_mesh() const override { return mesh(); }
   [[nodiscard]] Change<D> whole() const override;
   [[nodiscard]] bool has_features() const noexcept override { return false; }
-  [[nodiscard]] bool is_divided() const noexcept override {
-    return which_ == PointsOf::this_process;
-  }
   [[nodiscard]] MeshStats stats() const override;
   [[nodiscard]] const sac::Engine& engine() const noexcept override {
     return (*tiles_)[0].engine();
@@ -102,7 +99,9 @@ class TiledState final : public AnyState<D>, public PartOfMesh<D> {
     }
   };
 
+  [[nodiscard]] bool is_divided() const noexcept { return which_ == PointsOf::this_process; }
   [[nodiscard]] std::unique_ptr<TiledMesher<D>> make_all() const;
+  void start(TiledMesher<D>& tiles, const typename TiledMesher<D>::Ask& ask);
   [[nodiscard]] std::unique_ptr<TiledMesher<D>> build(const typename TiledMesher<D>::Ask& ask);
   void find_levels(std::size_t threads);
   VertexHandle add_record(PointId id, const Point<D>& p);
@@ -117,7 +116,7 @@ class TiledState final : public AnyState<D>, public PartOfMesh<D> {
   [[nodiscard]] TileEdits told(Moves& moves);
   void take_back(Moves moves);
   // Of all processes, where each has its own points:
-  void insert_divided(const PointEdits<D>& share);
+  void insert_divided(const PointEdits<D>& share, const TiledMesher<D>& tiles);
   void divide(const PointEdits<D>& share, Moves& moves);
   void ask_others(const TiledMesher<D>& tiles, Moves& moves);
   // Of this one:

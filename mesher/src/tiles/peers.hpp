@@ -8,7 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "tiles/parcel.hpp"
@@ -79,6 +81,34 @@ void together(Peers& peers, Act&& act) {
     failure = std::current_exception();
   }
   agree(peers, failure);
+}
+
+/// Of all: throws the error with the least key, in all processes, if there is one in any; or
+/// `failure`, as agree(). No key is that of two processes.
+template <class Key>
+void require_none(Peers& peers, const std::optional<std::pair<Key, Error>>& mine,
+                  const std::exception_ptr& failure = nullptr) {
+  std::uint64_t is_none = mine ? 0 : 1;
+  agree(peers, failure, {&is_none, 1});
+  if (is_none != 0) return;
+  if (peers.is_alone()) throw Error(mine->second);
+  Packer packed;
+  together(peers, [&] {
+    if (!mine) return;
+    packed.put(mine->first);
+    pack(mine->second, packed);
+  });
+  const std::vector<Bytes> told = peers.gather(packed.bytes());
+  together(peers, [&] {
+    std::optional<std::pair<Key, Error>> first;
+    for (const Bytes& one : told) {
+      if (one.empty()) continue;
+      Unpacker rest(one);
+      const auto key = rest.take<Key>();
+      if (!first || key < first->first) first.emplace(key, unpack_error(rest));
+    }
+    throw Error(first->second);
+  });
 }
 
 }  // namespace mesher::detail

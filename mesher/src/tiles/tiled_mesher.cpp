@@ -300,25 +300,7 @@ void TiledMesher<D>::require_no_fault() {
       if (fault && (!first || fault->first < first->first)) first = std::move(fault);
     }
   });
-  std::uint64_t is_sound = first ? 0 : 1;
-  agree({&is_sound, 1});
-  if (is_sound != 0 || (peers_.is_alone() && !first)) return;
-  if (peers_.is_alone()) throw first->second;
-  Packer mine;
-  attempt([&] {
-    if (!first) return;
-    mine.put(first->first);
-    pack(first->second, mine);
-  });
-  agree();
-  first.reset();
-  for (const Bytes& told : peers_.gather(mine.bytes())) {
-    if (told.empty()) continue;
-    Unpacker fault(told);
-    const auto turn = fault.take<Turn<D>>();
-    if (!first || turn < first->first) first = {turn, unpack_error(fault)};
-  }
-  throw first->second;
+  require_none(peers_, first, std::exchange(failure_, nullptr));
 }
 
 // What one mesher for all would have refused.

@@ -26,6 +26,7 @@
 
 #include "borders/territory.hpp"
 #include "mesher/meshing.hpp"
+#include "sets/make_set.hpp"
 #include "tiles/peers.hpp"
 #include "tiles/tile_mesher.hpp"
 
@@ -145,14 +146,13 @@ class TiledMesher {
     all_.for_each_met(area, [&](std::size_t tile) {
       if (process_of_[tile] != peers_.self()) met.push_back(process_of_[tile]);
     });
-    std::sort(met.begin(), met.end());
-    met.erase(std::unique(met.begin(), met.end()), met.end());
+    make_set(met);
     std::for_each(met.begin(), met.end(), visit);
   }
   [[nodiscard]] const Exchanges& exchanges() const noexcept { return exchanges_; }
-  /// The simplices of the tiles of this process, and their vertices.
   /// What line a segment is of, by what all tiles call it.
   using LineOf = std::function<LineId(SegmentHandle)>;
+  /// The simplices of the tiles of this process, and their vertices.
   [[nodiscard]] Mesh<D> mesh(const LineOf& line_of = {}) const;
   /// In the territories of this process.
   [[nodiscard]] std::size_t vertices() const noexcept;
