@@ -132,7 +132,8 @@ std::vector<Edit<D>> edits_of(const std::vector<Point<D>>& points,
   std::vector<Edit<D>> edits;
   typename mesher::detail::FeatureTree<D>::Path path;
   pool.for_each([&](const auto& v) {
-    edits.push_back({v.p, std::nullopt, tree.crowded_level(v, path)});
+    using Located = typename mesher::detail::TileMesher<D>::Located;
+    edits.push_back({v.p, std::nullopt, Located(tree.crowded_level(v, path))});
   });
   return edits;
 }

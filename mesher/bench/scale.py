@@ -33,7 +33,7 @@ The machine is assumed; each number is an option:
 --design now: each rank has all points and tables for all other tiles; the first rank reads and
     sends all; sizes go by MPI_Alltoall.
     divided: points are divided, tables and sizes are those of neighbours; the first rank reads all.
-    read: and each rank reads its part. (There is no code of either.)
+    read: and each rank reads its part. (In the code tables and sizes are those of all ranks.)
 --spread S: uneven input: horizons of a rank are shifted by a normal number of deviation S.
 
     rounds, horizons, agreements   as they came

@@ -1,6 +1,7 @@
 // operator new that fails on demand, in the test binaries that include this.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <new>
 #include <stdexcept>
@@ -8,10 +9,17 @@
 
 namespace support {
 
-/// Something that happens many times and shall fail once.
+/// Something that happens many times, in any thread, and shall fail once.
 struct Fuse {
   std::uint64_t left = 0;  ///< it fails when this reaches 0; 0: never
-  bool burns() noexcept { return left != 0 && --left == 0; }
+  bool burns() noexcept {
+    const std::atomic_ref<std::uint64_t> now(left);
+    std::uint64_t before = now.load(std::memory_order_relaxed);
+    while (before != 0 &&
+           !now.compare_exchange_weak(before, before - 1, std::memory_order_relaxed)) {
+    }
+    return before == 1;
+  }
 };
 
 /// What client code throws when its fuse burns.

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "facade/joint_mesher.hpp"
+#include "facade/joint_read.hpp"
 #include "mesher/mpi.hpp"
 #include "mesher/write.hpp"
 #include "mpi_peers.hpp"
@@ -187,11 +188,45 @@ void write_pieces(const MpiMesher<D>& mesher, const std::string& path) {
   detail::write_msh_pieces(joint.peers(), own, joint.numbers(own), path);
 }
 
+template <int D>
+void write_partitions(const MpiMesher<D>& mesher, const std::string& path) {
+  detail::JointMesher<D>& joint = **mesher.impl_;
+  if (format_of(path) != ".msh") {
+    throw Error(ErrorCode::unknown_format, "partitions are written to .msh", {path});
+  }
+  Mesh<D> own;
+  detail::together(joint.peers(), [&] { own = mesher.own_mesh(); });
+  detail::write_msh_partitions(joint.peers(), own, joint.numbers(own), path);
+}
+
+int dimension_of(MPI_Comm communicator, const std::string& path) {
+  detail::MpiPeers peers(communicator);
+  return detail::joint_dimension(path, peers);
+}
+
+template <int D>
+GraphFile<D> read(MPI_Comm communicator, const std::string& path, const ReadOptions& options) {
+  detail::MpiPeers peers(communicator);
+  return detail::joint_read<D>(path, options, peers);
+}
+
+template <int D>
+Error located(MPI_Comm communicator, const Error& error, const GraphFile<D>& share) {
+  detail::MpiPeers peers(communicator);
+  return detail::joint_located(error, share, peers);
+}
+
 template class MpiMesher<2>;
 template class MpiMesher<3>;
 template void write_mesh(const MpiMesher<2>&, const std::string&);
 template void write_mesh(const MpiMesher<3>&, const std::string&);
 template void write_pieces(const MpiMesher<2>&, const std::string&);
 template void write_pieces(const MpiMesher<3>&, const std::string&);
+template void write_partitions(const MpiMesher<2>&, const std::string&);
+template void write_partitions(const MpiMesher<3>&, const std::string&);
+template GraphFile<2> read(MPI_Comm, const std::string&, const ReadOptions&);
+template GraphFile<3> read(MPI_Comm, const std::string&, const ReadOptions&);
+template Error located(MPI_Comm, const Error&, const GraphFile<2>&);
+template Error located(MPI_Comm, const Error&, const GraphFile<3>&);
 
 }  // namespace mesher

@@ -3,7 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <optional>
+#include <span>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "geometry/box.hpp"
@@ -14,18 +18,101 @@ namespace mesher::detail {
 
 namespace {
 
-template <std::size_t N>
-void write_place(const std::array<double, N>& p, TextFile& file) {
-  for (std::size_t i = 0; i < 3; ++i) file << (i == 0 ? "" : " ") << (i < N ? p[i] : 0.0);
+constexpr std::size_t kSent = std::size_t{1} << 22;  // bytes at once
+
+// Text as a TextFile writes it.
+class Text {
+ public:
+  Text& operator<<(std::string_view text) {
+    text_ += text;
+    return *this;
+  }
+  Text& operator<<(char c) {
+    text_ += c;
+    return *this;
+  }
+  template <class Number>
+  requires std::is_arithmetic_v<Number> Text& operator<<(Number value) {
+    char digits[32];
+    text_.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+    return *this;
+  }
+  [[nodiscard]] std::string_view view() const noexcept { return text_; }
+
+ private:
+  std::string text_;
+};
+
+template <std::size_t N, class Out>
+void write_place(const std::array<double, N>& p, Out& out) {
+  for (std::size_t i = 0; i < 3; ++i) out << (i == 0 ? "" : " ") << (i < N ? p[i] : 0.0);
+}
+template <int D, class Out>
+void write_box(const Box<D>& box, Out& out) {
+  write_place(box.lo, out);
+  out << ' ';
+  write_place(box.hi, out);
 }
 
-// The entity 1 is the whole mesh; that of the partition k has the number k + 1.
+// The lines of a process. The entity 1 is the whole mesh; that of the partition k has the number
+// k + 1, and a section has a block for each.
+template <int D>
+struct MshLines {
+  static constexpr const char* kCounts = D == 2 ? "0 0 1 0\n" : "0 0 0 1\n";
+
+  std::size_t partition;  // from 1
+
+  template <class Out>
+  static void write_header(const Box<D>& extent, std::size_t partitions, Out& out) {
+    out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n" << kCounts << "1 ";
+    write_box<D>(extent, out);
+    out << " 0 0\n$EndEntities\n$PartitionedEntities\n" << partitions << "\n0\n";
+  }
+  template <class Out>
+  void write_entity(const Box<D>& box, Out& out) const {
+    out << partition + 1 << ' ' << D << " 1 1 " << partition << ' ';
+    write_box<D>(box, out);
+    out << " 0 0\n";
+  }
+  template <class Out>
+  void write_block(int kind, std::size_t count, Out& out) const {
+    if (count > 0) out << D << ' ' << partition + 1 << ' ' << kind << ' ' << count << '\n';
+  }
+  // number(i), place(i): of the i-th of so many.
+  template <class Number, class Place, class Out>
+  void write_nodes(std::size_t count, const Number& number, const Place& place, Out& out) const {
+    write_block(0, count, out);
+    for (std::size_t i = 0; i < count; ++i) out << number(i) << '\n';
+    for (std::size_t i = 0; i < count; ++i) {
+      write_place(place(i), out);
+      out << '\n';
+    }
+  }
+  template <class Out>
+  void write_elements(const Mesh<D>& own, const JointNumbers<D>& numbers, Out& out) const {
+    constexpr int kType = D == 2 ? 2 : 4;  // a triangle, a tetrahedron
+    write_block(kType, own.simplices.size(), out);
+    for (std::size_t i = 0; i < own.simplices.size(); ++i) {
+      out << numbers.first_simplex + i + 1;
+      for (const std::uint32_t v : own.simplices[i]) out << ' ' << numbers.vertices[v] + 1;
+      out << '\n';
+    }
+  }
+};
+
+// Of a section: blocks, and numbers from `first` on.
+template <class Out>
+void write_counts(std::uint64_t blocks, std::uint64_t count, std::uint64_t first,
+                  std::uint64_t last, Out& out) {
+  out << blocks << ' ' << count << ' ' << first << ' ' << last << '\n';
+}
+
+// A file of one process.
 template <int D>
 class MshPiece {
  public:
-  MshPiece(const Mesh<D>& own, const JointNumbers& numbers, std::size_t self, std::size_t size,
-           const Box<D>& extent, TextFile& file)
-      : own_(own), numbers_(numbers), self_(self), size_(size), extent_(extent), file_(file) {
+  MshPiece(const Mesh<D>& own, const JointNumbers<D>& numbers, std::size_t self, TextFile& file)
+      : own_(own), numbers_(numbers), lines_{self + 1}, file_(file) {
     std::vector<bool> is_used(own.vertices.size());
     for (const auto& simplex : own.simplices) {
       for (const std::uint32_t v : simplex) is_used[v] = true;
@@ -35,64 +122,37 @@ class MshPiece {
     }
   }
 
-  void write() {
-    file_ << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n" << kCounts << "1 ";
-    write_box(extent_);
-    file_ << " 0 0\n$EndEntities\n$PartitionedEntities\n" << size_ << "\n0\n" << kCounts;
-    file_ << self_ + 2 << ' ' << D << " 1 1 " << self_ + 1 << ' ';
-    write_box(bounding_box<D>(own_.vertices));
-    file_ << " 0 0\n$EndPartitionedEntities\n";
+  void write(const Box<D>& extent, std::size_t size) {
+    lines_.write_header(extent, size, file_);
+    file_ << MshLines<D>::kCounts;
+    lines_.write_entity(bounding_box<D>(own_.vertices), file_);
+    file_ << "$EndPartitionedEntities\n$Nodes\n";
     write_nodes();
-    write_elements();
-  }
-
- private:
-  static constexpr const char* kCounts = D == 2 ? "0 0 1 0\n" : "0 0 0 1\n";
-  static constexpr int kType = D == 2 ? 2 : 4;  // a triangle, a tetrahedron
-
-  [[nodiscard]] std::uint64_t number(std::uint32_t v) const { return numbers_.vertices[v] + 1; }
-  void write_box(const Box<D>& box) {
-    write_place(box.lo, file_);
-    file_ << ' ';
-    write_place(box.hi, file_);
-  }
-  // A section of one block of the partition's entity; numbers from 1.
-  void write_counts(std::size_t count, std::uint64_t first, std::uint64_t last, int kind) {
-    file_ << (count > 0 ? 1 : 0) << ' ' << count << ' ' << first << ' ' << last << '\n';
-    if (count > 0) file_ << D << ' ' << self_ + 2 << ' ' << kind << ' ' << count << '\n';
-  }
-  void write_nodes() {
-    std::uint64_t first = nodes_.empty() ? 0 : number(nodes_.front()), last = first;
-    for (const std::uint32_t v : nodes_) {
-      first = std::min(first, number(v));
-      last = std::max(last, number(v));
-    }
-    file_ << "$Nodes\n";
-    write_counts(nodes_.size(), first, last, 0);
-    for (const std::uint32_t v : nodes_) file_ << number(v) << '\n';
-    for (const std::uint32_t v : nodes_) {
-      write_place(own_.vertices[v], file_);
-      file_ << '\n';
-    }
-    file_ << "$EndNodes\n";
-  }
-  void write_elements() {
+    file_ << "$EndNodes\n$Elements\n";
     const std::size_t count = own_.simplices.size();
     const std::uint64_t before = numbers_.first_simplex;
-    file_ << "$Elements\n";
-    write_counts(count, count > 0 ? before + 1 : 0, count > 0 ? before + count : 0, kType);
-    for (std::size_t i = 0; i < count; ++i) {
-      file_ << before + i + 1;
-      for (const std::uint32_t v : own_.simplices[i]) file_ << ' ' << number(v);
-      file_ << '\n';
-    }
+    write_counts(count > 0 ? 1 : 0, count, count > 0 ? before + 1 : 0,
+                 count > 0 ? before + count : 0, file_);
+    lines_.write_elements(own_, numbers_, file_);
     file_ << "$EndElements\n";
   }
 
+ private:
+  void write_nodes() {
+    const auto number = [&](std::size_t i) { return numbers_.vertices[nodes_[i]] + 1; };
+    std::uint64_t first = nodes_.empty() ? 0 : number(0), last = first;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      first = std::min(first, number(i));
+      last = std::max(last, number(i));
+    }
+    write_counts(nodes_.empty() ? 0 : 1, nodes_.size(), first, last, file_);
+    lines_.write_nodes(
+        nodes_.size(), number, [&](std::size_t i) { return own_.vertices[nodes_[i]]; }, file_);
+  }
+
   const Mesh<D>& own_;
-  const JointNumbers& numbers_;
-  std::size_t self_, size_;
-  Box<D> extent_;
+  const JointNumbers<D>& numbers_;
+  MshLines<D> lines_;
   TextFile& file_;
   std::vector<std::uint32_t> nodes_;  // that simplices have
 };
@@ -116,6 +176,33 @@ Box<D> joint_extent(Peers& peers, const Mesh<D>& own) {
   return all.value_or(Box<D>());
 }
 
+// How many processes have something.
+std::uint64_t having(bool mine, Peers& peers) {
+  std::uint64_t all = mine ? 1 : 0;
+  peers.sum({&all, 1});
+  return all;
+}
+
+// Appends the texts of all processes, in their order, to the file of the first. Of all.
+void append(Peers& peers, std::string_view text, TextFile* file) {
+  for (std::size_t from = 0; from < peers.size(); ++from) {
+    const bool is_mine = from == peers.self();
+    std::uint64_t rest = is_mine ? text.size() : 0;
+    peers.sum({&rest, 1});
+    Peers::Views out;
+    together(peers, [&] { out.resize(peers.size()); });
+    for (std::uint64_t at = 0; at < rest; at += kSent) {
+      if (is_mine) out[0] = std::as_bytes(std::span(text.substr(at, kSent)));
+      const std::vector<Bytes> in = peers.exchange(out);
+      together(peers, [&] {
+        if (file == nullptr) return;
+        const auto* begin = reinterpret_cast<const char*>(in[from].data());
+        *file << std::string_view(begin, in[from].size());
+      });
+    }
+  }
+}
+
 }  // namespace
 
 std::string msh_piece_name(const std::string& path, std::size_t process) {
@@ -123,7 +210,7 @@ std::string msh_piece_name(const std::string& path, std::size_t process) {
 }
 
 template <int D>
-void write_msh_pieces(Peers& peers, const Mesh<D>& own, const JointNumbers& numbers,
+void write_msh_pieces(Peers& peers, const Mesh<D>& own, const JointNumbers<D>& numbers,
                       const std::string& path) {
   const Box<D> extent = joint_extent(peers, own);
   OutputFiles piece;
@@ -131,12 +218,71 @@ void write_msh_pieces(Peers& peers, const Mesh<D>& own, const JointNumbers& numb
   together(peers, [&] {
     name = msh_piece_name(path, peers.self());
     TextFile& file = piece.open(name);
-    MshPiece<D>(own, numbers, peers.self(), peers.size(), extent, file).write();
+    MshPiece<D>(own, numbers, peers.self(), file).write(extent, peers.size());
   });
   together(peers, [&] { remove_old(name); });
   together(peers, [&] { piece.commit(); });
 }
 
-template void write_msh_pieces(Peers&, const Mesh<2>&, const JointNumbers&, const std::string&);
-template void write_msh_pieces(Peers&, const Mesh<3>&, const JointNumbers&, const std::string&);
+template <int D>
+void write_msh_partitions(Peers& peers, const Mesh<D>& own, const JointNumbers<D>& numbers,
+                          const std::string& path) {
+  const Box<D> extent = joint_extent(peers, own);
+  const MshLines<D> lines{peers.self() + 1};
+  OutputFiles files;
+  TextFile* file = nullptr;  // of the first process
+  // Writes what is said once for all, and then what each process says.
+  const auto write = [&](const auto& once, const auto& each) {
+    Text text;
+    together(peers, [&] {
+      if (file != nullptr) once(*file);
+      each(text);
+    });
+    append(peers, text.view(), file);
+  };
+  together(peers, [&] {
+    if (peers.self() == 0) file = &files.open(path);
+  });
+  write(
+      [&](TextFile& out) {
+        lines.write_header(extent, peers.size(), out);
+        out << (D == 2 ? "0 0 " : "0 0 0 ") << peers.size() << (D == 2 ? " 0\n" : "\n");
+      },
+      [&](Text& out) { lines.write_entity(bounding_box<D>(own.vertices), out); });
+  const std::uint64_t node_blocks = having(!numbers.owned.empty(), peers);
+  write(
+      [&](TextFile& out) {
+        out << "$EndPartitionedEntities\n$Nodes\n";
+        write_counts(node_blocks, numbers.all_vertices, std::min<std::uint64_t>(node_blocks, 1),
+                     numbers.all_vertices, out);
+      },
+      [&](Text& out) {
+        lines.write_nodes(
+            numbers.owned.size(), [&](std::size_t i) { return numbers.first_owned + i + 1; },
+            [&](std::size_t i) { return numbers.owned[i]; }, out);
+      });
+  const std::uint64_t element_blocks = having(!own.simplices.empty(), peers);
+  write(
+      [&](TextFile& out) {
+        out << "$EndNodes\n$Elements\n";
+        write_counts(element_blocks, numbers.all_simplices,
+                     std::min<std::uint64_t>(element_blocks, 1), numbers.all_simplices, out);
+      },
+      [&](Text& out) { lines.write_elements(own, numbers, out); });
+  together(peers, [&] {
+    if (file == nullptr) return;
+    *file << "$EndElements\n";
+    files.commit();
+  });
+}
+
+#define MESHER_INSTANTIATE(D)                                                        \
+  template void write_msh_pieces(Peers&, const Mesh<D>&, const JointNumbers<D>&,     \
+                                 const std::string&);                                \
+  template void write_msh_partitions(Peers&, const Mesh<D>&, const JointNumbers<D>&, \
+                                     const std::string&)
+MESHER_INSTANTIATE(2);
+MESHER_INSTANTIATE(3);
+#undef MESHER_INSTANTIATE
+
 }  // namespace mesher::detail

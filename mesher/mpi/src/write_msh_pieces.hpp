@@ -1,4 +1,4 @@
-// A mesh in pieces: a .msh file for each process.
+// A mesh for Gmsh whose partitions are the parts of the processes: a file for each, or one file.
 #pragma once
 
 #include <string>
@@ -9,15 +9,20 @@
 
 namespace mesher::detail {
 
-/// The name of the `.msh` piece of a process: as Gmsh calls it, from 1.
+/// NAME_K.msh for NAME.msh, K from 1.
 [[nodiscard]] std::string msh_piece_name(const std::string& path, std::size_t process);
 
-/// Of all: the part of this process, with its numbers in the whole mesh, in a file as Gmsh's
-/// -part_split writes (version 4.1, ASCII): an entity of a partition, with the nodes that it needs.
-/// A piece is there whole, or not at all; older ones go before new ones appear. Throws: Error
-/// (cannot_write, bad_option).
+/// Of all processes (peers.hpp): a file for each. `own`: the part of this one, `numbers`: of it.
+/// Older pieces of these names go before new ones appear, so that two pieces are never of different
+/// meshes. Throws: Error(cannot_write).
 template <int D>
-void write_msh_pieces(Peers& peers, const Mesh<D>& own, const JointNumbers& numbers,
+void write_msh_pieces(Peers& peers, const Mesh<D>& own, const JointNumbers<D>& numbers,
                       const std::string& path);
+
+/// The same in one file, which the first process writes as the others send it their lines: it never
+/// has more of them than a few megabytes.
+template <int D>
+void write_msh_partitions(Peers& peers, const Mesh<D>& own, const JointNumbers<D>& numbers,
+                          const std::string& path);
 
 }  // namespace mesher::detail

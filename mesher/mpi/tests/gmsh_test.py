@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Pieces of `mesher-mpi --pieces` as Gmsh reads them: each is a partition, and together they are the
-whole mesh.
+"""What `mesher-mpi --pieces` and `--partitions` write, as Gmsh reads it: each piece is a partition,
+and together they are the whole mesh, as is the one file of all partitions.
 
     gmsh_test.py MESHER_MPI MESHER FOLDER MPIRUN...      77: there is no Gmsh for this Python
 """
@@ -72,6 +72,10 @@ def check(dimension, n, ranks):
             assert partitions == [k + 1] and parent == (dimension, 1), (partitions, parent)
             assert of_all[number][0] == of and all(own_nodes[n] == of_all_nodes[n] for n in of)
     assert count == len(elements)
+    one_file = folder / "partitions.msh"
+    subprocess.run([*run, one_file, "--partitions"], check=True)
+    in_one_nodes, in_one = read([one_file], dimension)
+    assert in_one_nodes == of_all_nodes and in_one == of_all
     print(f"{dimension}-dimensional, {len(elements)} elements in {ranks} pieces")
 
 

@@ -2,13 +2,14 @@
 // way. One case, by name, on the ranks that mpirun starts.
 //
 //   mpirun -n P mpi_test plane|space|lines|complexes|lines_memory|complexes_memory|places|failures|
-//                        limit|memory|files|sizes|refused|sizes_memory
+//                        limit|memory|files|reading|sizes|refused|sizes_memory
 //     FOLDER
 #include "mesher/mpi.hpp"
 
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 
 #include "failing_new.hpp"
@@ -359,10 +360,40 @@ void check_files() {
   const mesher::Mesh<2> msh = mesher::read_mesh<2>(name + "_" + std::to_string(self + 1) + ".msh");
   demand(corners_of(msh) == corners_of(own), "a piece of Gmsh");
   demand(!std::filesystem::exists(name + ".msh"), "pieces alone");
+  mesher::write_partitions(m, name + ".msh");
+  if (self == 0) {
+    const mesher::Mesh<2> one = mesher::read_mesh<2>(name + ".msh");
+    auto corners = corners_of(one), expected = corners_of(both.one().mesh());
+    std::sort(corners.begin(), corners.end()), std::sort(expected.begin(), expected.end());
+    demand(corners == expected, "one file of all partitions");
+  }
   const auto no_pieces = support::code_of([&] { mesher::write_pieces(m, name + ".off"); });
   demand(no_pieces == mesher::ErrorCode::unknown_format, "a format without pieces");
   const auto refused = support::code_of([&] { mesher::write_mesh(m, name + "/none/a.pvtu"); });
   demand(refused == mesher::ErrorCode::cannot_write, "a folder that is not there");
+}
+
+// One allocation after the other fails on the last rank, while shares of a file are read; places
+// are not in order, so that what repeats is looked for.
+void check_reading() {
+  const std::string path = folder + "/reading_" + std::to_string(size) + ".node";
+  constexpr int kPoints = 60;
+  if (self == 0) {
+    std::ofstream file(path);
+    file << kPoints << " 2 0 1\n";
+    for (int i = kPoints; i > 0; --i) file << i << ' ' << i % 7 << ' ' << i / 7 << " 1\n";
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  std::uint64_t count = 1, points = 0;
+  for (bool burnt = true; burnt; ++count) {
+    burnt = false;
+    const bool failed = fails_at(
+        count, burnt, [&] { points = mesher::read<2>(MPI_COMM_WORLD, path).graph.points.size(); });
+    burnt = least(burnt ? 0 : 1) == 0;
+    demand(failed == burnt && least(failed ? 0 : 1) == (failed ? 0u : 1u), "all fail, or none");
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &points, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+  demand(points == kPoints && count > 20, "each point comes to one rank");
 }
 
 }  // namespace
@@ -389,6 +420,7 @@ int main(int argc, char** argv) {
                 {"limit", check_limit},
                 {"memory", check_memory},
                 {"files", check_files},
+                {"reading", check_reading},
                 {"sizes", check_sizes},
                 {"refused", check_refused},
                 {"sizes_memory", check_sizes_memory}};

@@ -131,6 +131,59 @@ def check_features():
             assert (folder / "ranks.vtu").read_bytes() == alone.read_bytes(), (source, more, ranks)
 
 
+def check_shares():
+    """Points that ranks read in shares: markers, formats without ids, and the words of errors."""
+    lines = ["# points", "", "12 2 0 1"]
+    lines += [f"{40 - i} {i % 4}.5 {i // 4}.25 {i % 3}" for i in range(12)]
+    marked = "\r\n".join(lines)
+    places = [f"{i % 4}.5 {i // 4}.25" for i in range(12)]
+    solid = [f"{i % 2} {i // 2 % 2} {i // 4 + .5 * (i % 2)}" for i in range(12)]
+    row = "38 2.5 0.25 2"
+    assert row in marked
+    edits = folder / "share_edits.txt"
+    edits.write_text("begin\n-point 40\nmove 39 0.75 0.125\ncommit\n"
+                     "+point 40 1.75 1.125 marker 5\n")
+    for name, text, more in (
+        ("a.node", marked, ["--script", edits]),
+        ("a.xyz", "\n".join(places), []),
+        ("a.csv", "x,y\n" + "\n".join(places).replace(" ", ","), []),
+        ("b.csv", "\n".join(places).replace(" ", ";") + "\n", []),
+        ("b.xyz", "\n".join(solid), []),
+        ("c.csv", "name,Z,x,y\n" + "\n".join("p " + p for p in solid).replace(" ", ","), []),
+        ("more.node", marked + "\n1 0 0 0\n", []),
+        ("less.node", marked[:marked.rindex("\n")] + "\n# more\n", []),
+        ("cut.node", marked[:-2], []),
+        ("fields.node", marked.replace(row, row + " 7"), []),
+        ("number.node", marked.replace(row, "38 2.5 0.2x5 2"), []),
+        ("repeated.node", marked.replace(row, "40 2.5 0.25 2"), []),
+        ("duplicate.node", marked.replace(row, "38 0.5 0.25 2"), []),
+        ("close.node", marked.replace(row, "38 0.50000000000001 0.25 2"), []),
+        ("duplicate.xyz", "\n".join([*places, places[3]]), []),
+        ("empty.node", "", []),
+        ("zero.node", "0 2 0 0\n", []),
+    ):
+        source = folder / name
+        source.write_text(text)
+        command = ["edit", source, "--script", edits] if more else \
+            ["mesh", source, "--algorithm", "gap-balls"]
+        expected, output = folder / "alone.vtu", folder / "ranks.vtu"
+        for path in (expected, output):
+            path.unlink(missing_ok=True)
+        alone = subprocess.run([mesher, *map(str, command), "-o", expected, "--quiet"],
+                               capture_output=True, text=True)
+        for ranks in (1, 3, 5):
+            made = run_ranks(ranks, source, *more, "-o", output)
+            assert made.returncode == alone.returncode, (name, ranks, made.stderr)
+            if alone.returncode == 0:
+                assert output.read_bytes() == expected.read_bytes(), (name, ranks)
+                continue
+            said, words = ([line.split("; --repair")[0] for line in run.stderr.splitlines()
+                            if "error[" in line] for run in (made, alone))
+            assert said == words and len(said) == 1, (name, ranks, said, words)
+            assert not output.exists()
+            print(said[0].replace(str(folder) + "/", ""))
+
+
 def check_errors():
     source = make_input("plane.node", "uniform", "--n", 300)
     crossing = folder / "crossing.poly"
@@ -153,6 +206,8 @@ def check_errors():
         ([source, "--surface", "-o", folder / "no.vtu"], 2, "--surface is for space"),
         ([source, "--min-dihedral", 5, "-o", folder / "no.vtu"], 2, "--min-dihedral is for space"),
         ([source, "-o", folder / "no.what"], 2, "unknown_format"),
+        ([source, "-o", folder / "none" / "no.msh", "--partitions"], 2, "cannot_write"),
+        ([source, "-o", folder / "no.msh", "--partitions", "--pieces"], 2, "bad_option"),
         ([source, "--nonsense"], 2, "bad_option"),
     ):
         failed = run_ranks(3, *arguments)
@@ -212,6 +267,7 @@ folder.mkdir(parents=True)
 check_bytes()
 check_limits()
 check_features()
+check_shares()
 check_errors()
 if sys.platform == "linux":
     check_kills(8)

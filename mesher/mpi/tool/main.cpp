@@ -7,8 +7,10 @@
 #include <initializer_list>
 #include <map>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
+#include "geometry/box.hpp"
 #include "mesher/extra/edit_script.hpp"
 #include "mesher/meshing.hpp"
 #include "mesher/mpi.hpp"
@@ -41,7 +43,7 @@ struct Arguments {
   std::size_t max_vertices = 0;
   int threads = 1;
   double min_dihedral = 0;
-  bool surface = false, pieces = false, stats = false;
+  bool surface = false, pieces = false, partitions = false, stats = false;
 };
 
 // What the first rank says, for all.
@@ -56,15 +58,16 @@ T of_first(MpiPeers& peers, const T& value) {
 template <int D>
 class Program {
  public:
-  // Of all ranks, as all that follows. The first rank alone reads, and writes what is not in
-  // pieces.
+  // Of all ranks, as all that follows. The first rank alone writes what is not in pieces.
   Program(const Arguments& arguments, MpiPeers& peers)
       : arguments_(arguments), peers_(peers), is_first_(peers.self() == 0) {}
 
   void run() {
-    on_first([&] { read(), require_outputs(); });
+    read();
+    on_first([&] { require_outputs(); });
     mesher::MpiMesher<D> m(MPI_COMM_WORLD, options());
-    on_first([&] { announce(m), limit(m); });
+    together(peers_, [&] { announce(m); });
+    on_first([&] { limit(m); });
     mesh(m);
     if (!arguments_.script.empty()) follow(m);
     for (const std::string& path : arguments_.outputs) write(m, path);
@@ -79,6 +82,8 @@ class Program {
     });
   }
 
+  // Points alone come to the ranks in shares, if a line of the file is one; else all is the
+  // first's.
   void read() {
     const std::string& path = arguments_.input;
     const std::string format = mesher::format_of(path);
@@ -95,17 +100,26 @@ class Program {
     }
     mesher::ReadOptions how;
     how.points_alone = !has_features_;
-    file_ = mesher::read<D>(path, how);
+    file_ = mesher::read<D>(MPI_COMM_WORLD, path, how);
     const Graph<D>& graph = file_.graph;
-    if constexpr (D == 3) {
+    on_first([&] {
       const bool has_lines = !graph.segments.empty() || !graph.polylines.empty();
-      if (arguments_.surface && !has_lines && graph.polygons.empty()) {
+      if (D == 3 && arguments_.surface && !has_lines && has_no_polygons(graph)) {
         throw Error(ErrorCode::bad_option, "--surface: the file has no faces", {path});
       }
-    }
-    for (const auto& p : graph.points) point_markers_[p.id] = p.marker;
-    for (const auto& s : graph.segments) line_markers_[s.id] = s.marker;
-    for (const auto& l : graph.polylines) line_markers_[l.id] = l.marker;
+      for (const auto& s : graph.segments) line_markers_[s.id] = s.marker;
+      for (const auto& l : graph.polylines) line_markers_[l.id] = l.marker;
+    });
+    together(peers_, [&] {
+      for (const auto& p : graph.points) {
+        if (p.marker != 0) markers_read_.push_back({p.id, p.marker});
+      }
+    });
+  }
+
+  static bool has_no_polygons(const Graph<D>& graph) {
+    if constexpr (D == 3) return graph.polygons.empty();
+    return true;
   }
 
   // Seeds say what is written.
@@ -149,6 +163,8 @@ class Program {
         files.open(path);
       } else if (is_in_pieces(path)) {
         files.open(mesher::detail::msh_piece_name(path, 0));
+      } else if (has_partitions(path)) {
+        files.open(path);
       } else {
         static_cast<void>(mesher::open_mesh<D>(files, path, content()));
       }
@@ -156,13 +172,8 @@ class Program {
   }
 
   mesher::Options<D> options() {
-    std::vector<mesher::Point<D>> places;
     mesher::Options<D> options;
-    on_first([&] {
-      for (const auto& p : file_.graph.points) places.push_back(p.at);
-      options.domain = mesher::snapped_domain<D>(places);
-    });
-    options.domain = of_first(peers_, options.domain);
+    options.domain = domain();
     if (arguments_.rho != 0) options.rho = arguments_.rho;
     if (D == 2 && arguments_.min_dihedral != 0) {
       throw Error(ErrorCode::bad_option, "--min-dihedral is for space; INPUT is in the plane",
@@ -174,13 +185,38 @@ class Program {
     return options;
   }
 
+  // Of the points of all ranks: what is around theirs says it.
+  mesher::Box<D> domain() {
+    Packer mine;
+    together(peers_, [&] {
+      if (file_.graph.points.empty()) return;
+      const auto around = mesher::detail::bounding_box<D>(places_of(file_.graph));
+      mine.put(around.lo), mine.put(around.hi);
+    });
+    const std::vector<Bytes> told = peers_.gather(mine.bytes());
+    mesher::Box<D> domain;
+    together(peers_, [&] {
+      std::vector<mesher::Point<D>> corners;
+      for (const Bytes& one : told) {
+        for (Unpacker rest(one); !rest.is_empty();) {
+          corners.push_back(rest.take<mesher::Point<D>>());
+        }
+      }
+      domain = mesher::snapped_domain<D>(corners);
+    });
+    return domain;
+  }
+
   void mesh(mesher::MpiMesher<D>& m) {
     try {
       m.update({}, mesher::Told::own);
     } catch (const Error& error) {
-      const Error found = mesher::located(error, file_);
+      const Error found = mesher::located(MPI_COMM_WORLD, error, file_);
       throw found.location().file.empty() ? found.at({arguments_.input}) : found;
     }
+    // The mesher has them.
+    file_.graph.points = {};
+    file_.points = {};
   }
 
   // Batch by batch; the edits of a batch are announced by the first rank.
@@ -210,7 +246,7 @@ class Program {
 
   void note_marker(const mesher::Edit<D>& edit) {
     using Kind = mesher::EditKind;
-    if (edit.kind == Kind::insert) point_markers_[PointId{edit.number}] = edit.marker;
+    if (edit.kind == Kind::insert) markers_edited_[PointId{edit.number}] = edit.marker;
     if (edit.kind == Kind::insert_segment || edit.kind == Kind::insert_polyline) {
       line_markers_[LineId{edit.number}] = edit.marker;
     }
@@ -222,13 +258,19 @@ class Program {
   bool is_in_pieces(const std::string& path) const {
     return arguments_.pieces && mesher::format_of(path) == ".msh";
   }
+  bool has_partitions(const std::string& path) const {
+    return arguments_.partitions && mesher::format_of(path) == ".msh";
+  }
 
   void write(const mesher::MpiMesher<D>& m, const std::string& path) {
     if (mesher::format_of(path) == ".pvtu") return mesher::write_mesh(m, path);
     if (is_in_pieces(path)) return mesher::write_pieces(m, path);
+    if (has_partitions(path)) return mesher::write_partitions(m, path);
     mesher::Mesh<D> whole = m.gather();
     std::vector<mesher::GraphPoint<D>> points = m.gather_points();
+    const std::vector<Bytes> markers = gather_markers();
     on_first([&] {
+      mark(points, markers);
       mesher::WriteOptions how;
       const auto made = mesher::domain_mesh(std::move(whole), graph_of(m, std::move(points)),
                                             mesher::Extent::enclosed);
@@ -238,12 +280,34 @@ class Program {
     });
   }
 
-  // The input, as it is now.
+  // On the first rank.
+  std::vector<Bytes> gather_markers() {
+    Packer mine;
+    mesher::detail::Peers::Views out;
+    together(peers_, [&] {
+      mine.put_all(markers_read_);
+      out.resize(peers_.size());
+      out[0] = mine.bytes();
+    });
+    return peers_.exchange(out);
+  }
+  void mark(std::vector<mesher::GraphPoint<D>>& points, const std::vector<Bytes>& read) const {
+    std::unordered_map<PointId, std::int64_t> markers;
+    for (const Bytes& one : read) {
+      for (const Marked& p : Unpacker(one).take_all<Marked>()) markers[p.id] = p.marker;
+    }
+    for (const auto& [id, marker] : markers_edited_) markers[id] = marker;
+    for (auto& p : points) {
+      const auto at = markers.find(p.id);
+      p.marker = at != markers.end() ? at->second : 0;
+    }
+  }
+
+  // The input, as it is now; `points`: marked.
   Graph<D> graph_of(const mesher::MpiMesher<D>& m,
                     std::vector<mesher::GraphPoint<D>> points) const {
     Graph<D> now = file_.graph;
     now.points = std::move(points);
-    for (auto& p : now.points) p.marker = point_markers_.at(p.id);
     now.segments.clear();
     now.polylines = m.lines();
     for (auto& l : now.polylines) l.marker = line_markers_.at(l.id);
@@ -270,10 +334,15 @@ class Program {
   const Arguments& arguments_;
   MpiPeers& peers_;
   bool is_first_;
-  // Of the first rank; and the markers of all that there was.
-  mesher::GraphFile<D> file_;
+  struct Marked {
+    PointId id;
+    std::int64_t marker;
+  };
+  mesher::GraphFile<D> file_;         // the share of this rank
+  std::vector<Marked> markers_read_;  // likewise, but for those that are 0
   bool has_features_ = false;
-  std::map<PointId, std::int64_t> point_markers_;
+  // Of the first rank: of all points that edits have brought, and of all lines that there were.
+  std::map<PointId, std::int64_t> markers_edited_;
   std::map<LineId, std::int64_t> line_markers_;
 };
 
@@ -299,7 +368,11 @@ int run(int argc, char** argv, MpiPeers& peers) {
       ->allow_extra_args(false);
   app.add_flag("--pieces", arguments.pieces,
                "NAME.msh is NAME_1.msh, NAME_2.msh, ..., one for each rank, as 'gmsh -part_split'\n"
-               "writes them");
+               "writes them")
+      ->excludes(app.add_flag(
+          "--partitions", arguments.partitions,
+          "NAME.msh is one file with a partition for each rank, as 'gmsh -part' writes\n"
+          "it, which the first rank writes without having all of it; of all of the box"));
   app.add_option("--script", arguments.script, "Edits that are made one batch after the other");
   app.add_option("--rho", arguments.rho, "The bound on circumradius over shortest edge");
   app.add_option("--min-dihedral", arguments.min_dihedral,
@@ -326,11 +399,7 @@ int run(int argc, char** argv, MpiPeers& peers) {
   } catch (const CLI::ParseError& error) {
     throw Error(ErrorCode::bad_option, std::string(error.what()) + "; see 'mesher-mpi --help'");
   }
-  int dimension = 0;
-  together(peers, [&] {
-    if (is_first) dimension = mesher::dimension_of(arguments.input);
-  });
-  dimension = of_first(peers, dimension);
+  const int dimension = mesher::dimension_of(MPI_COMM_WORLD, arguments.input);
   dimension == 3 ? Program<3>(arguments, peers).run() : Program<2>(arguments, peers).run();
   return 0;
 }

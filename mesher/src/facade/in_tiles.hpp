@@ -26,6 +26,8 @@ void in_tiles(Act&& act, bool is_theirs = true) {
   } catch (const Error&) {
     if (!is_theirs) throw;
     throw NotInTiles();
+  } catch (const TooManyLooks&) {
+    throw NotInTiles();
   }
 }
 

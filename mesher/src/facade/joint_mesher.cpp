@@ -638,8 +638,8 @@ std::vector<GraphPoint<D>> JointMesher<D>::told_points(std::size_t to) const {
 }
 
 template <int D>
-JointNumbers JointMesher<D>::numbers(const Mesh<D>& own) const {
-  return state_->ran() ? joint_numbers(own, tiles(), *peers_) : JointNumbers();
+JointNumbers<D> JointMesher<D>::numbers(const Mesh<D>& own) const {
+  return state_->ran() ? joint_numbers(own, tiles(), *peers_) : JointNumbers<D>();
 }
 
 template <int D>

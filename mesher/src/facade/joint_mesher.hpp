@@ -87,7 +87,7 @@ class JointMesher {
   /// faces on features likewise. Empty before the first update.
   [[nodiscard]] Mesh<D> own_mesh() const;
   /// Of all: those of own_mesh(), which is `own`.
-  [[nodiscard]] JointNumbers numbers(const Mesh<D>& own) const;
+  [[nodiscard]] JointNumbers<D> numbers(const Mesh<D>& own) const;
   /// Of all: the mesh, in process `to`; empty in others.
   [[nodiscard]] Mesh<D> gather(std::size_t to = 0) const;
   /// Of all: sums, but of seconds the most.

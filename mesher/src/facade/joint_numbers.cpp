@@ -22,7 +22,7 @@ class JointCount {
         views_(peers.size()) {}
 
   // Steps of all processes.
-  JointNumbers run() {
+  JointNumbers<D> run() {
     together(peers_, [&] { ask(); });
     const std::vector<Bytes> questions = exchange();
     together(peers_, [&] { note(questions); });
@@ -52,12 +52,13 @@ class JointCount {
 
   // What others want may be vertices of which no simplex is in this part.
   void note(const std::vector<Bytes>& questions) {
+    std::vector<Point<D>>& owned = numbers_.owned;
     for (std::size_t k = 0; k < wanted_.size(); ++k) {
       wanted_[k] = Unpacker(questions[k]).template take_all<Point<D>>();
-      vertices_.insert(vertices_.end(), wanted_[k].begin(), wanted_[k].end());
+      owned.insert(owned.end(), wanted_[k].begin(), wanted_[k].end());
     }
-    make_set(vertices_);
-    sizes_.put(std::uint64_t{vertices_.size()});
+    make_set(owned);
+    sizes_.put(std::uint64_t{owned.size()});
     sizes_.put(std::uint64_t{own_.simplices.size()});
   }
 
@@ -65,17 +66,18 @@ class JointCount {
     for (std::size_t k = 0; k < sizes.size(); ++k) {
       Unpacker of(sizes[k]);
       const auto vertices = of.take<std::uint64_t>(), simplices = of.take<std::uint64_t>();
-      if (k < peers_.self()) first_vertex_ += vertices, numbers_.first_simplex += simplices;
+      if (k < peers_.self()) numbers_.first_owned += vertices, numbers_.first_simplex += simplices;
       numbers_.all_vertices += vertices, numbers_.all_simplices += simplices;
     }
   }
 
   void answer() {
+    const std::vector<Point<D>>& owned = numbers_.owned;
     for (std::size_t k = 0; k < wanted_.size(); ++k) {
       std::vector<std::uint64_t> answers;
       for (const Point<D>& p : wanted_[k]) {
-        const auto at = std::lower_bound(vertices_.begin(), vertices_.end(), p);
-        answers.push_back(first_vertex_ + static_cast<std::uint64_t>(at - vertices_.begin()));
+        const auto at = std::lower_bound(owned.begin(), owned.end(), p);
+        answers.push_back(numbers_.first_owned + static_cast<std::uint64_t>(at - owned.begin()));
       }
       parcels_[k].clear();
       parcels_[k].put_all(answers);
@@ -98,23 +100,21 @@ class JointCount {
   std::vector<Packer> parcels_;
   Peers::Views views_;
   Packer sizes_;
-  std::vector<Point<D>> vertices_;  // that this process owns, ascending
-  std::uint64_t first_vertex_ = 0;
-  JointNumbers numbers_;
+  JointNumbers<D> numbers_;
 };
 
 }  // namespace
 
 template <int D>
-JointNumbers joint_numbers(const Mesh<D>& own, const TiledMesher<D>& tiles, Peers& peers) {
+JointNumbers<D> joint_numbers(const Mesh<D>& own, const TiledMesher<D>& tiles, Peers& peers) {
   std::optional<JointCount<D>> count;
   together(peers, [&] { count.emplace(own, tiles, peers); });
   return count->run();
 }
 
-template JointNumbers joint_numbers(const Mesh<2>&, const TiledMesher<2>&, Peers&);
+template JointNumbers<2> joint_numbers(const Mesh<2>&, const TiledMesher<2>&, Peers&);
 #ifndef MESHER_PLANE_ONLY
-template JointNumbers joint_numbers(const Mesh<3>&, const TiledMesher<3>&, Peers&);
+template JointNumbers<3> joint_numbers(const Mesh<3>&, const TiledMesher<3>&, Peers&);
 #endif
 
 }  // namespace mesher::detail

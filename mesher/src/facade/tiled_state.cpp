@@ -146,6 +146,7 @@ void TiledState<D>::start(TiledMesher<D>& tiles, const typename TiledMesher<D>::
     });
   });
   const Held held(features_);
+  if (ask && peers_.is_alone() && !is_divided()) tiles.bound_looks();
   tiles.first_run(by_tile, ask);
 }
 

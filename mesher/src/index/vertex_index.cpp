@@ -189,8 +189,9 @@ void VertexIndex<sac::Scope, D>::retract_birth(BirthEdge& birth) noexcept {
 // Whether v is in a gap ball, erring towards yes, or as near as the nearest is.
 template <int D>
 bool VertexIndex<sac::Scope, D>::concerns(const Vertex<D>& v, const Vertex<D>& center,
-                                          const Observation& o) const noexcept {
+                                          const Observation& o) noexcept {
   const auto seen = observers_.seen(o);
+  looks_ += seen.size();
   if (o.kind == kNearest) {
     return seen[0] == 0 ||
            squared_distance(v.p, center.p) <= squared_distance(pool_[seen[0]].p, center.p);
@@ -331,6 +332,15 @@ auto VertexIndex<sac::Scope, D>::cell_of_producer(const Vertex<D>& v) const noex
   return cell;
 }
 
+// What has been looked at since the last query.
+template <int D>
+void VertexIndex<sac::Scope, D>::weigh(sac::Scope& s) {
+  const std::uint64_t visited = take_visited();
+  s.weigh(visited);
+  looks_ += visited;
+  if (looks_ > most_looks_) throw TooManyLooks();
+}
+
 template <int D>
 CellLoan<D> VertexIndex<sac::Scope, D>::voronoi_cell(sac::Scope& s, VertexRef<D> v, double radius) {
   const sac::Call& self = s.self();
@@ -342,7 +352,7 @@ CellLoan<D> VertexIndex<sac::Scope, D>::voronoi_cell(sac::Scope& s, VertexRef<D>
   });
   CellLoan<D> cell =
       look(*v, radius, last, [&](VertexHandle u) { return born_before(pool_[u], self); });
-  s.weigh(take_visited());
+  weigh(s);
   cell->write(codes_);
   record_cell(s, *v, *cell, clip, kCell);
   return cell;
@@ -389,7 +399,7 @@ CellLoan<D> VertexIndex<sac::Scope, D>::trial(sac::Scope& s, const Point<D>& p, 
     return cell;
   };
   CellLoan<D> cell = look_there();
-  s.weigh(take_visited());
+  weigh(s);
   cell->write(codes_);
   record_cell(s, *v, *cell, clip, kTrial);
   return cell;
@@ -408,7 +418,7 @@ void VertexIndex<sac::Scope, D>::look_across(sac::Scope& s, VertexRef<D> v, doub
   const auto seen = [&](VertexHandle u) { return born_before(pool_[u], self); };
   if (radius < 0) {
     const auto n = nearest_around(*v, seen);
-    s.weigh(take_visited());
+    weigh(s);
     const double reach = std::min(std::sqrt(n.distance2) * (1 + 0x1p-40), whole());
     record_nearest(s, *v, Reach<D>::around(reach / box_.side), n.handle);
     if (n.handle != 0) found.push_back(n.handle);
@@ -418,7 +428,7 @@ void VertexIndex<sac::Scope, D>::look_across(sac::Scope& s, VertexRef<D> v, doub
   const Observation* last = observers_.find_at(
       *v, [&](const Observation& o) { return o.kind == kTrial && o.call == caller; });
   const CellLoan<D> cell = look(*v, radius, last, seen);
-  s.weigh(take_visited());
+  weigh(s);
   cell->write(codes_);
   record_cell(s, *v, *cell, packed(radius), kTrial);
   for (const std::uint32_t u : Cell::neighbours(codes_)) {
@@ -431,7 +441,7 @@ double VertexIndex<sac::Scope, D>::nearest2(sac::Scope& s, VertexRef<D> v) {
   const sac::Call& self = s.self();
   const auto seen = [&](VertexHandle u) { return born_before(pool_[u], self); };
   const auto n = reads() ? live_->nearest(*v) : nearest_around(*v, seen);
-  s.weigh(take_visited());
+  weigh(s);
   record_nearest(s, *v, Reach<D>::around(std::sqrt(n.distance2) * (1 + 0x1p-40) / box_.side),
                  n.handle);
   return n.distance2;
@@ -443,7 +453,7 @@ CellLoan<D> VertexIndex<sac::Scope, D>::star(sac::Scope& s, VertexRef<D> v) {
   const Observation* last = observers_.find_at(
       *v, [&](const Observation& o) { return o.kind == kStar && o.call == caller; });
   CellLoan<D> cell = look(*v, whole(), last, [&](VertexHandle u) { return pool_[u].alive; });
-  s.weigh(take_visited());
+  weigh(s);
   cell->write(codes_);
   record_cell(s, *v, *cell, packed(whole()), kStar);
   return cell;

@@ -53,6 +53,9 @@ namespace mesher::detail {
 template <class S, int D = 2>
 class VertexIndex;
 
+/// What a query throws after more looks than are allowed.
+struct TooManyLooks {};
+
 // While it has a triangulation, that answers; the quadtree is filled only where it is searched.
 template <int D>
 class VertexIndex<sac::PlainScope, D> : public VertexSearch<D> {
@@ -185,6 +188,9 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   /// Between the parts: these may have come or gone since.
   void keep_reading(const std::vector<VertexHandle>& touched);
   void end_reading() noexcept { live_.reset(); }
+  /// From now on queries throw TooManyLooks after so many since the beginning: at what a search
+  /// meets, and at what observations have seen.
+  void bound_looks(std::uint64_t most) noexcept { most_looks_ = most; }
   /// Whether the quadtree is searched: in updates.
   [[nodiscard]] static constexpr bool searches() noexcept { return true; }
 
@@ -417,7 +423,8 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
                  const sac::Edge* seen) noexcept;
   void take_role(Vertex<D>& v, const Role& role, const sac::Call& producer) noexcept;
   [[nodiscard]] bool concerns(const Vertex<D>& v, const Vertex<D>& center,
-                              const Observation& o) const noexcept;
+                              const Observation& o) noexcept;
+  void weigh(sac::Scope& s);
   void appeared(const Vertex<D>& v, const sac::Window& window) noexcept;
   void vanished(const Vertex<D>& v, const sac::Window& window) noexcept;
   void retract_birth(BirthEdge& birth) noexcept;
@@ -492,6 +499,7 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   ChangedFeatures* changed_ = nullptr;
   std::vector<PlaceBall> balls_;  // scratch
   LookListener<D>* listener_ = nullptr;
+  std::uint64_t looks_ = 0, most_looks_ = ~std::uint64_t{0};
   bool looks_across_ = false;  // while look_across() runs
   bool is_given_ = false;      // some are vertices by set_vertex() alone
 };

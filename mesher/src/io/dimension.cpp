@@ -3,7 +3,7 @@
 #include <optional>
 #include <string_view>
 
-#include "io/read_points.hpp"
+#include "io/line_points.hpp"
 #include "io/vtk_grid.hpp"
 #include "mesher/read.hpp"
 #include "mesher/write.hpp"
@@ -21,25 +21,8 @@ std::optional<double> number(const text::Line& line, std::size_t i) {
   }
 }
 
-// The header tells; the whole file is needed if all that was read is a comment.
-bool node_is_in_space(const std::string& path) {
-  for (const std::size_t most : {std::size_t{1} << 12, SIZE_MAX}) {
-    const std::string content = text::read_file(path, most);
-    text::FieldLines lines(path, content);
-    const bool has_header = lines.next();
-    if (content.size() == most && (!has_header || lines.at_end())) continue;  // it may be cut
-    return has_header && lines.line().size() > 1 && lines.line()[1] == "3";
-  }
-  return false;
-}
-
-bool xyz_is_in_space(const std::string& path) {
-  const std::string content = text::read_file(path);
-  for (text::FieldLines lines(path, content); lines.next();) {
-    if (lines.line().size() > 2 && number(lines.line(), 2) != 0.0) return true;
-  }
-  return false;
-}
+// Of a table of points.
+text::Share first_lines(const std::string& path) { return {path, head_of<text::FieldLines>(path)}; }
 
 bool obj_is_in_space(const std::string& path) {
   const std::string content = text::read_file(path);
@@ -68,10 +51,10 @@ int dimension_of(const std::string& path) {
   const std::string extension = text::extension(path);
   const auto is = [&](std::string_view name) { return extension == name; };
   if (is(".off") || is(".stl") || is(".ply") || is(".vtk") || is(".smesh")) return 3;
-  const bool in_space =
-      ((is(".node") || is(".poly")) && node_is_in_space(path)) ||
-      (is(".xyz") && xyz_is_in_space(path)) || (is(".csv") && csv_is_in_space(path)) ||
-      (is(".obj") && obj_is_in_space(path)) || (is(".vtu") && vtu_is_in_space(path));
+  const bool in_space = ((is(".node") || is(".poly")) && node_is_in_space(first_lines(path))) ||
+                        ((is(".xyz") || is(".csv")) && is_in_space(text::whole_file(path))) ||
+                        (is(".obj") && obj_is_in_space(path)) ||
+                        (is(".vtu") && vtu_is_in_space(path));
   return in_space ? 3 : 2;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "graph/require_ids.hpp"
+#include "io/line_points.hpp"
 #include "io/point_file.hpp"
 #include "io/read_node.hpp"
 #include "io/read_plc.hpp"
@@ -14,25 +15,12 @@
 namespace mesher {
 namespace {
 
-// `markers`: one for each row, or none.
-template <int D>
-GraphFile<D> points_alone(PointFile<D> rows, const std::vector<std::int64_t>& markers) {
-  GraphFile<D> out;
-  out.file = out.point_file = rows.file;
-  for (std::size_t i = 0; i < rows.points.size(); ++i) {
-    out.graph.points.push_back({rows.ids[i], rows.points[i], markers.empty() ? 0 : markers[i]});
-    out.points.push_back({rows.lines[i], rows.lines[i] > 0 ? 1 : 0});
-  }
-  out.notes = std::move(rows.notes);
-  return out;
-}
-
 template <int D>
 GraphFile<D> read_node_points(const std::string& path, CoincidingPoints coinciding) {
-  const NodeFile<D> nodes = read_node<D>(path, CoordinateRule::input);
+  NodeFile<D> nodes = read_node<D>(text::whole_file(path), CoordinateRule::input);
   require_distinct_ids(nodes.rows);
   if (coinciding == CoincidingPoints::refused) require_distinct_points(nodes.rows);
-  return points_alone<D>(nodes.rows, nodes.markers);
+  return points_alone(std::move(nodes.rows), nodes.markers);
 }
 
 #ifndef MESHER_PLANE_ONLY
@@ -69,7 +57,7 @@ GraphFile<2> read_in_plane(const std::string& path, const ReadOptions& options) 
   if (extension == ".vtu") return read_vtu_lines(path);
   if (extension == ".node") return read_node_points<2>(path, options.coinciding);
   if (extension == ".xyz" || extension == ".csv") {
-    return points_alone<2>(read_points<2>(path, options.coinciding), {});
+    return points_alone(read_points<2>(path, options.coinciding));
   }
   throw Error(ErrorCode::unknown_format,
               "points and lines are read from .poly, .geojson, .json, .obj, .vtu, .node, .xyz and "
@@ -85,7 +73,7 @@ GraphFile<3> read_in_space(const std::string& path, const ReadOptions& options) 
   if (extension == ".smesh") return read_smesh(path);
   if (extension == ".node") return read_node_points<3>(path, options.coinciding);
   if (options.points_alone || extension == ".xyz" || extension == ".csv") {
-    return points_alone<3>(read_points<3>(path, options.coinciding), {});
+    return points_alone(read_points<3>(path, options.coinciding));
   }
   if (extension == ".off") return plc_of(read_off_surface(path));
   if (extension == ".obj") return plc_of(read_obj_surface(path));

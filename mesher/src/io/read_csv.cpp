@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 
+#include "io/line_points.hpp"
 #include "io/read_points.hpp"
 #include "text/text.hpp"
 
@@ -130,7 +131,7 @@ Point<D> read_point(const text::Line& line, const Columns<D>& columns) {
 // The lines of a file that are neither blank nor comments, split where the first of them says.
 class CsvLines {
  public:
-  CsvLines(const std::string& path, std::string_view content) : lines_(content), line_(path) {}
+  explicit CsvLines(const text::Share& share) : lines_(share), line_(share.file) {}
 
   bool next() {
     while (lines_.next()) {
@@ -144,6 +145,7 @@ class CsvLines {
   }
   [[nodiscard]] const text::Line& line() const { return line_; }
   [[nodiscard]] const text::Lines& lines() const { return lines_; }
+  [[nodiscard]] std::string_view rest() const { return lines_.rest(); }
 
  private:
   text::Lines lines_;
@@ -154,21 +156,20 @@ class CsvLines {
 
 // Columns of the first of `sets` that the file names in full, or its D columns if it names none.
 template <int D>
-PointFile<D> read_columns(const std::string& path, const std::vector<ColumnNames<D>>& sets) {
-  const std::string content = text::read_file(path);
-  PointFile<D> rows{path, {}, {}, {}};
+PointFile<D> read_columns(const text::Share& share, const std::vector<ColumnNames<D>>& sets) {
+  PointFile<D> rows{share.file, {}, {}, {}};
   std::optional<Columns<D>> columns;
   std::size_t width = 0;
-  for (CsvLines all(path, content); all.next();) {
+  for (CsvLines all(share); all.next();) {
     const text::Line& line = all.line();
     if (!columns) {
       const bool named = is_header(line);
       columns = named ? named_columns<D>(line, sets) : unnamed_columns<D>(line, sets.front());
       width = named ? line.size() : D;
-      if (named) continue;
+      if (named || !share.is_first) continue;
     }
     require_fields(line, width, all.lines());
-    add_row<D>(rows, read_point<D>(line, *columns), line.number());
+    add_row<D>(rows, read_point<D>(line, *columns), line.number(), share.rows_before);
   }
   return rows;
 }
@@ -183,20 +184,20 @@ std::size_t height_column(const text::Line& header) {
   return z;
 }
 
-// What is no finite number is not: the reader will say so.
-bool is_zero(const text::Line& line, std::size_t i) {
-  try {
-    return i < line.size() && line.finite(i) == 0;
-  } catch (const Error&) {
-    return false;
-  }
-}
-
 }  // namespace
 
-bool csv_is_in_space(const std::string& path) {
-  const std::string content = text::read_file(path);
-  CsvLines all(path, content);
+std::string csv_head(const std::string& path) { return head_of<CsvLines>(path); }
+
+std::size_t csv_rows(const text::Share& share) {
+  CsvLines all(share);
+  if (!all.next()) return 0;
+  std::size_t rows = share.is_first && !is_header(all.line()) ? 1 : 0;
+  while (all.next()) ++rows;
+  return rows;
+}
+
+bool csv_is_in_space(const text::Share& share) {
+  CsvLines all(share);
   if (!all.next()) return false;
   if (!is_header(all.line())) return all.line().size() == 3;
   const std::size_t z = height_column(all.line());
@@ -208,23 +209,23 @@ bool csv_is_in_space(const std::string& path) {
 }
 
 template <>
-PointFile<2> read_csv<2>(const std::string& path) {
-  return read_columns<2>(path, kPlaneColumns);
+PointFile<2> read_csv<2>(const text::Share& share) {
+  return read_columns<2>(share, kPlaneColumns);
 }
 
 template <>
-PointFile<3> read_csv<3>(const std::string& path) {
-  return read_columns<3>(path, kSpaceColumns);
+PointFile<3> read_csv<3>(const text::Share& share) {
+  return read_columns<3>(share, kSpaceColumns);
 }
 
 template <>
 PointFile<3> read_csv_sizes<2>(const std::string& path) {
-  return read_columns<3>(path, kSizes);
+  return read_columns<3>(text::whole_file(path), kSizes);
 }
 
 template <>
 PointFile<4> read_csv_sizes<3>(const std::string& path) {
-  return read_columns<4>(path, kSpaceSizes);
+  return read_columns<4>(text::whole_file(path), kSpaceSizes);
 }
 
 }  // namespace mesher

@@ -139,20 +139,20 @@ std::size_t most_rows(const NodeHeader& header, std::size_t bytes) {
 }
 
 template <int D>
-NodeFile<D> read_node(const std::string& path, CoordinateRule rule) {
-  const std::string content = text::read_file(path);
-  text::FieldLines lines(path, content);
-  const NodeHeader header = read_node_header(header_row(lines, path), D);
+NodeFile<D> read_node(const text::Share& share, CoordinateRule rule) {
+  text::FieldLines lines(share);
+  const NodeHeader header = read_node_header(header_row(lines, share.file), D);
   VertexColumns columns(header);
   NodeFile<D> nodes;
-  nodes.rows.file = path;
-  const std::size_t most = most_rows(header, content.size());
+  nodes.rows.file = share.file;
+  const std::size_t most = most_rows(header, share.lines.size());
   nodes.rows.ids.reserve(most);
   nodes.rows.points.reserve(most);
   nodes.rows.lines.reserve(most);
+  const auto rows = [&] { return share.rows_before + nodes.rows.ids.size(); };
   while (lines.next()) {
     const text::Line& line = lines.line();
-    if (std::cmp_equal(nodes.rows.ids.size(), header.count)) {
+    if (std::cmp_greater_equal(rows(), header.count)) {
       throw line.error(ErrorCode::wrong_count,
                        "more points than the " + std::to_string(header.count) + " of the header",
                        0);
@@ -167,19 +167,19 @@ NodeFile<D> read_node(const std::string& path, CoordinateRule rule) {
       nodes.markers.push_back(line.integer(line.size() - 1));
     }
   }
-  if (std::cmp_less(nodes.rows.ids.size(), header.count)) {
+  if (!share.is_followed && std::cmp_less(rows(), header.count)) {
     throw lines.line().error(ErrorCode::truncated,
-                             "the file ends after " + std::to_string(nodes.rows.ids.size()) +
-                                 " of " + std::to_string(header.count) + " points",
+                             "the file ends after " + std::to_string(rows()) + " of " +
+                                 std::to_string(header.count) + " points",
                              lines.line().size());
   }
   if (rule == CoordinateRule::finite) columns.give(nodes);
   return nodes;
 }
 
-template NodeFile<2> read_node<2>(const std::string&, CoordinateRule);
+template NodeFile<2> read_node<2>(const text::Share&, CoordinateRule);
 #ifndef MESHER_PLANE_ONLY
-template NodeFile<3> read_node<3>(const std::string&, CoordinateRule);
+template NodeFile<3> read_node<3>(const text::Share&, CoordinateRule);
 #endif
 
 }  // namespace mesher

@@ -55,10 +55,9 @@ struct NodeFile {
 };
 
 /// What the rows say beside places and markers is read for CoordinateRule::finite, else only
-/// counted.
-/// Throws: Error as read_points, but repeated ids and duplicate points are not looked for.
+/// counted. Throws: Error as read_points, but repeated ids and duplicate points are not looked for.
 template <int D>
-[[nodiscard]] NodeFile<D> read_node(const std::string& path, CoordinateRule rule);
+[[nodiscard]] NodeFile<D> read_node(const text::Share& share, CoordinateRule rule);
 
 /// Throws: Error(repeated_id) naming the first line whose id stood before. Cost: O(n log n).
 template <int D>

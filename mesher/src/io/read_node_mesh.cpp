@@ -82,7 +82,7 @@ class NodeMesh {
   }
 
   void read_vertices(const std::string& path) {
-    NodeFile<D> nodes = read_node<D>(path, CoordinateRule::finite);
+    NodeFile<D> nodes = read_node<D>(text::whole_file(path), CoordinateRule::finite);
     require_distinct_ids(nodes.rows);
     require_indexable(nodes.rows.points.size(), path_);
     vertices_ = IdTable(nodes.rows.ids);

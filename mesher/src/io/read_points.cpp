@@ -2,7 +2,6 @@
 #include "io/read_points.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -12,29 +11,16 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/place_hash.hpp"
+#include "io/line_points.hpp"
 #include "io/read_node.hpp"
 #include "io/rows.hpp"
 #include "mesher/read.hpp"
-#include "sac/label.hpp"
 #include "sets/counting_sort.hpp"
 #include "text/id_text.hpp"
 #include "text/text.hpp"
 
 namespace mesher {
 namespace {
-
-std::uint64_t hash_of(PointId id) { return sac::mix(static_cast<std::uint64_t>(id)); }
-template <std::size_t N>
-std::uint64_t hash_of(const std::array<double, N>& p) {
-  return detail::place_hash(p);
-}
-
-// Two rows of a file with equal keys; the later one is the first in the file to repeat an earlier.
-struct Repeat {
-  std::size_t earlier;
-  std::size_t later;
-};
 
 // A row by a hash of its key.
 struct Hashed {
@@ -49,7 +35,7 @@ std::optional<Repeat> first_repeat(const std::vector<Key>& keys) {
     return {};
   }
   std::vector<Hashed> order(keys.size());
-  for (std::size_t row = 0; row < keys.size(); ++row) order[row] = {hash_of(keys[row]), row};
+  for (std::size_t row = 0; row < keys.size(); ++row) order[row] = {row_hash(keys[row]), row};
   detail::sort_spread(
       order, [](const Hashed& h) { return h.hash; },
       [&](const Hashed& a, const Hashed& b) {
@@ -78,20 +64,28 @@ using PointReaders = std::vector<std::pair<std::string_view, ReadPoints<D>>>;
 
 template <int D>
 PointFile<D> read_node_rows(const std::string& path) {
-  return read_node<D>(path, CoordinateRule::input).rows;
+  return read_node<D>(text::whole_file(path), CoordinateRule::input).rows;
+}
+template <int D>
+PointFile<D> read_xyz_rows(const std::string& path) {
+  return read_xyz<D>(text::whole_file(path));
+}
+template <int D>
+PointFile<D> read_csv_rows(const std::string& path) {
+  return read_csv<D>(text::whole_file(path));
 }
 
 template <int D>
 PointReaders<D> readers() {
-  return {{".node", read_node_rows<D>}, {".xyz", read_xyz<D>}, {".csv", read_csv<D>}};
+  return {{".node", read_node_rows<D>}, {".xyz", read_xyz_rows<D>}, {".csv", read_csv_rows<D>}};
 }
 
 #ifndef MESHER_PLANE_ONLY
 template <>
 PointReaders<3> readers() {
-  return {{".node", read_node_rows<3>}, {".xyz", read_xyz<3>},     {".csv", read_csv<3>},
-          {".off", read_off_points},    {".obj", read_obj_points}, {".ply", read_ply_points},
-          {".stl", read_stl_points},    {".vtu", read_vtu_points}, {".vtk", read_vtk_points}};
+  return {{".node", read_node_rows<3>}, {".xyz", read_xyz_rows<3>}, {".csv", read_csv_rows<3>},
+          {".off", read_off_points},    {".obj", read_obj_points},  {".ply", read_ply_points},
+          {".stl", read_stl_points},    {".vtu", read_vtu_points},  {".vtk", read_vtk_points}};
 }
 #endif
 
@@ -138,28 +132,33 @@ void add_vertex(PointFile<3>& rows, Point<3> point, const FileLocation& place) {
 }
 
 template <int D>
-void require_distinct_ids(const PointFile<D>& rows) {
-  const auto repeat = first_repeat(rows.ids);
-  if (!repeat) return;
+void fail_repeated_id(const PointFile<D>& rows, Repeat repeat) {
   throw Error(ErrorCode::repeated_id,
-              "id " + id_text(rows.ids[repeat->later]) + " is given twice, first on line " +
-                  std::to_string(rows.lines[repeat->earlier]),
-              rows.location(repeat->later), {mesher::Feature(rows.ids[repeat->later])});
+              "id " + id_text(rows.ids[repeat.later]) + " is given twice, first on line " +
+                  std::to_string(rows.lines[repeat.earlier]),
+              rows.location(repeat.later), {mesher::Feature(rows.ids[repeat.later])});
+}
+
+template <int D>
+void fail_duplicate_point(const PointFile<D>& rows, Repeat repeat) {
+  throw Error(ErrorCode::duplicate_point,
+              "point " + id_text(rows.ids[repeat.later]) + " lies on point " +
+                  id_text(rows.ids[repeat.earlier]) + line_text(rows, repeat.earlier) +
+                  ", both at " + text::to_text<D>(rows.points[repeat.later]),
+              rows.location(repeat.later),
+              {mesher::Feature(rows.ids[repeat.later]), mesher::Feature(rows.ids[repeat.earlier])},
+              {position_of(rows.points[repeat.later])})
+      .with_locations({rows.location(repeat.later), rows.location(repeat.earlier)});
+}
+
+template <int D>
+void require_distinct_ids(const PointFile<D>& rows) {
+  if (const auto repeat = first_repeat(rows.ids)) fail_repeated_id(rows, *repeat);
 }
 
 template <int D>
 void require_distinct_points(const PointFile<D>& rows) {
-  const auto repeat = first_repeat(rows.points);
-  if (!repeat) return;
-  throw Error(
-      ErrorCode::duplicate_point,
-      "point " + id_text(rows.ids[repeat->later]) + " lies on point " +
-          id_text(rows.ids[repeat->earlier]) + line_text(rows, repeat->earlier) + ", both at " +
-          text::to_text<D>(rows.points[repeat->later]),
-      rows.location(repeat->later),
-      {mesher::Feature(rows.ids[repeat->later]), mesher::Feature(rows.ids[repeat->earlier])},
-      {position_of(rows.points[repeat->later])})
-      .with_locations({rows.location(repeat->later), rows.location(repeat->earlier)});
+  if (const auto repeat = first_repeat(rows.points)) fail_duplicate_point(rows, *repeat);
 }
 
 template <int D>
@@ -171,10 +170,14 @@ PointFile<D> read_points(const std::string& path, CoincidingPoints coinciding) {
   return rows;
 }
 
+template void fail_repeated_id(const PointFile<2>&, Repeat);
+template void fail_duplicate_point(const PointFile<2>&, Repeat);
 template void require_distinct_ids<2>(const PointFile<2>&);
 template void require_distinct_points<2>(const PointFile<2>&);
 template PointFile<2> read_points<2>(const std::string&, CoincidingPoints);
 #ifndef MESHER_PLANE_ONLY
+template void fail_repeated_id(const PointFile<3>&, Repeat);
+template void fail_duplicate_point(const PointFile<3>&, Repeat);
 template PointFile<3> read_points<3>(const std::string&, CoincidingPoints);
 #endif
 

@@ -1,25 +1,19 @@
 // The readers of single formats, behind read_points.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "geometry/place_hash.hpp"
 #include "io/point_file.hpp"
 #include "mesher/names.hpp"
+#include "sac/label.hpp"
 #include "text/text.hpp"
 
 namespace mesher {
-
-/// Throws: Error as read_points, but duplicate points are not looked for.
-template <int D>
-[[nodiscard]] PointFile<D> read_xyz(const std::string& path);
-template <int D>
-[[nodiscard]] PointFile<D> read_csv(const std::string& path);
-
-/// Whether the file has three columns, or columns named x, y and z with a z that is not 0.
-[[nodiscard]] bool csv_is_in_space(const std::string& path);
 
 /// The vertices of a surface or a grid in space.
 [[nodiscard]] PointFile<3> read_off_points(const std::string& path);
@@ -51,15 +45,36 @@ struct Surface {
 [[nodiscard]] Surface read_vtu_surface(const std::string& path);
 [[nodiscard]] Surface read_vtk_surface(const std::string& path);
 
+/// A number that spreads the ids, or the places, of rows.
+[[nodiscard]] inline std::uint64_t row_hash(PointId id) noexcept {
+  return sac::mix(static_cast<std::uint64_t>(id));
+}
+template <std::size_t N>
+[[nodiscard]] std::uint64_t row_hash(const std::array<double, N>& p) noexcept {
+  return detail::place_hash(p);
+}
+
+/// Two rows of a file that have one id, or one place; the later one is the first in the file to
+/// repeat an earlier.
+struct Repeat {
+  std::size_t earlier;
+  std::size_t later;
+};
+/// Throws: Error (repeated_id, duplicate_point).
+template <int D>
+[[noreturn]] void fail_repeated_id(const PointFile<D>& rows, Repeat repeat);
+template <int D>
+[[noreturn]] void fail_duplicate_point(const PointFile<D>& rows, Repeat repeat);
+
 /// The columns x, y, h of a background of sizes; x, y, z, h in space. Throws: Error likewise.
 template <int D>
 [[nodiscard]] PointFile<D + 1> read_csv_sizes(const std::string& path);
 
-/// Adds a point of a format without ids: the next of 1..n.
+/// Adds a point of a format without ids: the next of 1..n, where so many are before these.
 template <int D>
-void add_row(PointFile<D>& rows, const Point<D>& point, long line) {
+void add_row(PointFile<D>& rows, const Point<D>& point, long line, std::size_t before = 0) {
   rows.points.push_back(point);
-  rows.ids.push_back(PointId{static_cast<std::int64_t>(rows.points.size())});
+  rows.ids.push_back(PointId{static_cast<std::int64_t>(before + rows.points.size())});
   rows.lines.push_back(line);
 }
 

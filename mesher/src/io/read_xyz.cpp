@@ -1,4 +1,5 @@
 // Reads `.xyz` files: a line of blank-separated coordinates for each point.
+#include "io/line_points.hpp"
 #include "io/read_points.hpp"
 #include "text/text.hpp"
 
@@ -25,18 +26,24 @@ Point<D> read_point(const text::FieldLines& lines) {
 }  // namespace
 
 template <int D>
-PointFile<D> read_xyz(const std::string& path) {
-  const std::string content = text::read_file(path);
-  PointFile<D> rows{path, {}, {}, {}};
-  for (text::FieldLines lines(path, content); lines.next();) {
-    add_row<D>(rows, read_point<D>(lines), lines.line().number());
+PointFile<D> read_xyz(const text::Share& share) {
+  PointFile<D> rows{share.file, {}, {}, {}};
+  for (text::FieldLines lines(share); lines.next();) {
+    add_row<D>(rows, read_point<D>(lines), lines.line().number(), share.rows_before);
   }
   return rows;
 }
 
-template PointFile<2> read_xyz<2>(const std::string&);
+bool xyz_is_in_space(const text::Share& share) {
+  for (text::FieldLines lines(share); lines.next();) {
+    if (lines.line().size() > 2 && !is_zero(lines.line(), 2)) return true;
+  }
+  return false;
+}
+
+template PointFile<2> read_xyz<2>(const text::Share&);
 #ifndef MESHER_PLANE_ONLY
-template PointFile<3> read_xyz<3>(const std::string&);
+template PointFile<3> read_xyz<3>(const text::Share&);
 #endif
 
 }  // namespace mesher

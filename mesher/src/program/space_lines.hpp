@@ -66,7 +66,8 @@ class Staying<S, 3> final : public EdgeFilter<3> {
     const auto role_of = [&](const Vertex<3>& v) { return world_.vertices.role(v); };
     while (any_) {
       const Known known = std::exchange(known_, Known::nothing);
-      const auto y = StarCrossings(cell_, world_.vertices.pool(), near_, role_of).place(known);
+      const auto y = StarCrossings(world_.star_room, cell_, world_.vertices.pool(), near_, role_of)
+                         .place(known);
       if (known != Known::nothing) world_.vertices.note_clear(!y);
       if (!y) break;
       insert(s, *y, b);

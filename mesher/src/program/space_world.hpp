@@ -8,6 +8,7 @@
 #include "rules/sliver_rule.hpp"
 #include "space/guard.hpp"
 #include "space/placed.hpp"
+#include "space/star_crossings.hpp"
 #include "space/validity.hpp"
 
 namespace mesher::detail {
@@ -28,6 +29,7 @@ struct World<S, 3> : PointWorld<S, 3> {
   Agenda& fills;
   const SliverRule slivers;
   const bool guarded;                         // space/guard.hpp
+  StarCrossings::Room star_room{};            // of the star that is looked at
   const SpaceNames* feature_names = nullptr;  // for messages; null: features have none
 
   template <class Host>

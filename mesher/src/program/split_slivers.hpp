@@ -247,7 +247,7 @@ class SliverSplitter {
     const FeaturesBeside near(w_.plc.store(), star.center().p, w_.vertices.beside(star));
     const auto role_of = [&](const Vertex<3>& u) { return w_.vertices.role(u); };
     const bool barred = yield(near, star.center().p, kBeside * std::sqrt(nearest2)).has_value() ||
-                        StarCrossings(star, w_.vertices.pool(), near, role_of).any();
+                        StarCrossings(w_.star_room, star, w_.vertices.pool(), near, role_of).any();
     w_.vertices.note_asked(near.asked());
     return barred;
   }

@@ -24,9 +24,20 @@ constexpr double kRoomForCopy = 0.25;
 
 }  // namespace
 
-StarCrossings::StarCrossings(VoronoiCell3& cell, const VertexPool<3>& pool,
+StarCrossings::StarCrossings(Room& room, VoronoiCell3& cell, const VertexPool<3>& pool,
                              const FeaturesBeside& near)
-    : cell_(cell), pool_(pool), near_(near), roles_(index(cell.size())) {
+    : cell_(cell),
+      pool_(pool),
+      near_(near),
+      real_(room.real_),
+      roles_(room.roles_),
+      link_(room.link_),
+      balls_(room.balls_),
+      height_(room.height_),
+      beside_(room.beside_),
+      on_(room.on_) {
+  real_.clear(), link_.clear(), balls_.clear();
+  roles_.resize(index(cell.size()));  // those of `real_` are set
   const Point<3>& v = cell.center().p;
   box_ = {v, v};
   double reach2 = 0;

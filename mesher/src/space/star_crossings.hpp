@@ -44,11 +44,14 @@ class StarCrossings {
   /// cell is as it was observed; and that no feature crosses it that has not come in this update.
   enum class Known : std::uint8_t { nothing, observed, was_clear };
 
-  /// `role_of(vertex)`: what it lies on.
+  /// Lists of a star, of one after the other: large ones keep their room.
+  class Room;
+
+  /// `role_of(vertex)`: what it lies on. `room`: of one star at a time.
   template <class RoleOf>
-  StarCrossings(VoronoiCell3& cell, const VertexPool<3>& pool, const FeaturesBeside& near,
-                RoleOf&& role_of)
-      : StarCrossings(cell, pool, near) {
+  StarCrossings(Room& room, VoronoiCell3& cell, const VertexPool<3>& pool,
+                const FeaturesBeside& near, RoleOf&& role_of)
+      : StarCrossings(room, cell, pool, near) {
     self_ = role_of(cell.center());
     for (const int i : real_) roles_[index(i)] = role_of(pool[cell.handle(i)]);
   }
@@ -85,7 +88,8 @@ class StarCrossings {
     int p, q;
   };
 
-  StarCrossings(VoronoiCell3& cell, const VertexPool<3>& pool, const FeaturesBeside& near);
+  StarCrossings(Room& room, VoronoiCell3& cell, const VertexPool<3>& pool,
+                const FeaturesBeside& near);
 
   static std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
   [[nodiscard]] const Vertex<3>& vertex(int i) const {
@@ -131,31 +135,43 @@ class StarCrossings {
   [[nodiscard]] Placed place_on(const Polygon& f, const PiercingEdge& edge);
   [[nodiscard]] Placed place_near(const Polygon& f, const Point<3>& x);
 
-  VoronoiCell3& cell_;
-  const VertexPool<3>& pool_;
-  const FeaturesBeside& near_;
-  // Numbers of neighbours are accidental: what depends on an order goes by places.
-  std::vector<int> real_;       // neighbours that are vertices
-  std::vector<Role> roles_;     // of these
-  std::vector<LinkEdge> link_;  // between these
-  Role self_;
-  double reach_ = 0;     // how far the star reaches from v
-  double rounding_ = 0;  // of a length in it
-  Box<3> box_{};         // of the star
   struct Ball {
     Point<3> centre;
     double radius;
   };
-  std::vector<Ball> balls_;  // of its simplices
+
+  VoronoiCell3& cell_;
+  const VertexPool<3>& pool_;
+  const FeaturesBeside& near_;
+  // Numbers of neighbours are accidental: what depends on an order goes by places.
+  std::vector<int>& real_;       // neighbours that are vertices
+  std::vector<Role>& roles_;     // of these
+  std::vector<LinkEdge>& link_;  // between these
+  std::vector<Ball>& balls_;     // of simplices
+  Role self_;
+  double reach_ = 0;     // how far the star reaches from v
+  double rounding_ = 0;  // of a length in it
+  Box<3> box_{};         // of the star
   // Scratch, of one feature.
-  std::vector<double> height_;  // of neighbours; 0: on the polygon, or in its plane
+  std::vector<double>& height_;  // of neighbours; 0: on the polygon, or in its plane
   double self_height_ = 0;
-  std::vector<Beside> beside_;  // of neighbours
-  std::vector<char> on_;        // of neighbours: whether they are on the edge
+  std::vector<Beside>& beside_;  // of neighbours
+  std::vector<char>& on_;        // of neighbours: whether they are on the edge
   Beside self_beside_{};
   struct {
     Point<3> origin, one, other, along;
   } axes_{};  // of the edge
+};
+
+class StarCrossings::Room {
+  friend StarCrossings;
+  std::vector<int> real_;
+  std::vector<Role> roles_;
+  std::vector<LinkEdge> link_;
+  std::vector<Ball> balls_;
+  std::vector<double> height_;
+  std::vector<Beside> beside_;
+  std::vector<char> on_;
 };
 
 }  // namespace mesher::detail

@@ -8,7 +8,11 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <utility>
+
+#include "sac/check.hpp"
 
 namespace mesher::text {
 namespace {
@@ -105,6 +109,33 @@ std::string read_file(const std::string& path, std::size_t most) {
   if (std::ferror(file.get())) throw cannot_read(path);
   content.resize(size);
   return content;
+}
+
+Share whole_file(const std::string& path) { return {path, read_file(path)}; }
+
+std::string read_lines(const std::string& path, std::uint64_t from, std::uint64_t to) {
+  SAC_EXPECTS(from <= to);
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  // A line begins behind the end of another.
+  const std::uint64_t start = from - std::min<std::uint64_t>(from, 1);
+  if (!file.seekg(static_cast<std::streamoff>(start))) throw cannot_read(path);
+  std::string text(static_cast<std::size_t>(to - start), '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (file.bad()) throw cannot_read(path);
+  if (from > 0) {
+    const std::size_t end = text.find('\n');
+    if (end == std::string::npos || end + 1 == to - start) return {};
+    text.erase(0, end + 1);
+  }
+  std::string more;
+  if (!text.empty() && text.back() != '\n' && std::getline(file, more)) {
+    text += more;
+    if (!file.eof()) text += '\n';
+  }
+  if (file.bad()) throw cannot_read(path);
+  return text;
 }
 
 std::string extension(const std::string& path) {
@@ -242,7 +273,16 @@ Lines::Lines(std::string_view text) : rest_(text) {
   }
 }
 
+Lines::Lines(const Share& share) : Lines(share.is_first ? share.lines : share.head) {
+  if (!share.is_first) behind_head_ = share.lines, lines_before_ = share.lines_before;
+  is_followed_ = share.is_followed;
+}
+
 bool Lines::next() {
+  if (rest_.empty() && !behind_head_.empty()) {
+    rest_ = std::exchange(behind_head_, {});
+    number_ = lines_before_;
+  }
   if (rest_.empty()) return false;
   const auto end = std::min(rest_.find('\n'), rest_.size());
   line_ = rest_.substr(0, end);
@@ -253,6 +293,7 @@ bool Lines::next() {
 }
 
 bool Lines::at_end() const {
+  if (is_followed_) return false;
   Lines ahead = *this;
   while (ahead.next()) {
     if (!trim(without_comment(ahead.text())).empty()) return false;

@@ -100,19 +100,45 @@ class Line {
   std::vector<std::string_view> fields_;
 };
 
+/// The lines of a file that one process reads: all; or, where several read one file together, some
+/// of them, and the first lines, the *head*, which each reads.
+struct Share {
+  std::string file;
+  std::string lines{};
+  bool is_first = true;         ///< `lines` begin the file, and the head is a part of them
+  std::string head{};           ///< if they do not
+  long lines_before = 0;        ///< of the file, before `lines`
+  std::size_t rows_before = 0;  ///< of these, those with what is read line by line
+  bool is_followed = false;     ///< by more than blanks and comments
+};
+
+/// Throws: Error(cannot_read).
+[[nodiscard]] Share whole_file(const std::string& path);
+
+/// The lines of a file that begin at one of the bytes `from` to `to` - 1, up to their ends. Throws:
+/// Error(cannot_read).
+[[nodiscard]] std::string read_lines(const std::string& path, std::uint64_t from, std::uint64_t to);
+
 /// Cuts a text into lines; LF or CRLF, the last line's end may be missing.
 class Lines {
  public:
   explicit Lines(std::string_view text);
+  /// The head, and then the lines. `share` must outlive them.
+  explicit Lines(const Share& share);
   /// Goes to the next line. False at the end of the text.
   bool next();
   [[nodiscard]] std::string_view text() const { return line_; }
   [[nodiscard]] long number() const { return number_; }
   /// Whether nothing but blanks and comments follows the current line.
   [[nodiscard]] bool at_end() const;
+  /// What follows the current line in its text.
+  [[nodiscard]] std::string_view rest() const { return rest_; }
 
  private:
   std::string_view rest_;
+  std::string_view behind_head_;
+  long lines_before_ = 0;  // behind_head_
+  bool is_followed_ = false;
   std::string_view line_;
   long number_ = 0;
 };
@@ -125,10 +151,14 @@ class FieldLines {
  public:
   FieldLines(const std::string& file, std::string_view content, Continued continued = Continued::no)
       : lines_(content), line_(file), continued_(continued) {}
+  /// `share` must outlive them.
+  explicit FieldLines(const Share& share)
+      : lines_(share), line_(share.file), continued_(Continued::no) {}
   /// Goes to the next line with a field. False at the end of the text.
   bool next();
   [[nodiscard]] const Line& line() const { return line_; }
   [[nodiscard]] bool at_end() const { return lines_.at_end(); }
+  [[nodiscard]] std::string_view rest() const { return lines_.rest(); }
 
  private:
   Lines lines_;

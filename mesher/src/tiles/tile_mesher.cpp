@@ -466,9 +466,18 @@ template <int D>
 void TileMesher<D>::propagate() {
   post_orders();
   world_->most_records = records_in_update();
+  if (look_bound_) {
+    world_->vertices.bound_looks(look_bound_->more + look_bound_->a_call * engine_->live_calls());
+  }
   counts_.again += engine_->propagate().executed;
   forget_orders();
   tries_nearer_ = false;
+}
+
+template <int D>
+void TileMesher<D>::bound_looks(const std::optional<LookBound>& bound) noexcept {
+  look_bound_ = bound;
+  if (!bound) world_->vertices.bound_looks(~std::uint64_t{0});
 }
 
 // Where limits ask for too many vertices, these shall not need all memory before it is known. (What

@@ -162,6 +162,13 @@ class TileMesher {
   /// Brings what has run up to date with what was noted. What throws leaves everything as it was;
   /// what was noted waits for another try.
   void propagate();
+  /// How many looks are too many, from now on: propagate() then throws TooManyLooks. They are what
+  /// searches meet, and what the observations have seen that are asked whether they are concerned.
+  struct LookBound {
+    std::uint64_t a_call = 1024;  // that there is, and
+    std::uint64_t more = std::uint64_t{1} << 24;
+  };
+  void bound_looks(const std::optional<LookBound>& bound) noexcept;
 
   /// What is new for others since the last call; adds to `changes` what is new in the mesh. What
   /// throws leaves the tile good for nothing.
@@ -340,6 +347,7 @@ class TileMesher {
   std::vector<Point<D>> features_;  // that concern this tile
   std::vector<Order> orders_;
   bool tries_nearer_ = false;
+  std::optional<LookBound> look_bound_;
   std::size_t own_vertices_ = 0;
   TileCounts counts_;
   std::vector<Asked> asked_;                                      // by tile

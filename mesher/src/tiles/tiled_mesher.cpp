@@ -373,7 +373,15 @@ void TiledMesher<D>::first_run(const Edits& edits, const Ask& ask, const Common&
   begin(Phase::triangulate);
   run_all(kMany, [&](TileMesher<D>& tile, std::size_t) { tile.run_stars(); });
   end();
+  for (const auto& tile : tiles_) tile->bound_looks(std::nullopt);
   unwatch();
+}
+
+template <int D>
+void TiledMesher<D>::bound_looks(const LookBound& bound) noexcept {
+  SAC_EXPECTS(peers_.is_alone());
+  if (tiles_.size() == 1) return;
+  for (const auto& tile : tiles_) tile->bound_looks(bound);
 }
 
 template <int D>

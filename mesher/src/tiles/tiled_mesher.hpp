@@ -116,6 +116,11 @@ class TiledMesher {
   /// `common`: null where there is nothing to be told.
   using Common = std::shared_ptr<const CommonOrders<D>>;
   void first_run(const Edits& edits, const Ask& ask, const Common& common = nullptr);
+  /// Before that: it throws TooManyLooks, too, if tiles look so often at what changes that one tile
+  /// is sooner done. (First runs of points have up to 150 looks a call; a surface whose stars were
+  /// as large as the box had 20000 when it was a tenth done.) Requires: one process.
+  using LookBound = typename TileMesher<D>::LookBound;
+  void bound_looks(const LookBound& bound = {}) noexcept;
   /// Makes the edits; last(changes) is called, with those of this process, when all agree; it
   /// throws in all processes or in none. Throws: likewise, and what `last` throws: then the whole
   /// input must be put back, and the edits taken back.

@@ -32,6 +32,7 @@
 
 #include "mesher/graph.hpp"
 #include "mesher/mesher.hpp"
+#include "mesher/read.hpp"
 
 namespace mesher {
 
@@ -132,6 +133,8 @@ class MpiMesher {
   friend void write_mesh(const MpiMesher<E>&, const std::string&);
   template <int E>
   friend void write_pieces(const MpiMesher<E>&, const std::string&);
+  template <int E>
+  friend void write_partitions(const MpiMesher<E>&, const std::string&);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
@@ -151,5 +154,29 @@ void write_mesh(const MpiMesher<D>& mesher, const std::string& path);
 /// (unknown_format, cannot_write), std::bad_alloc.
 template <int D>
 void write_pieces(const MpiMesher<D>& mesher, const std::string& path);
+
+/// Of all: writes the mesh to one .msh file, as `gmsh -part` writes it: the simplices of each rank
+/// are the entity of a partition. Numbers are as in pieces. Ranks send their lines to rank 0, which
+/// has a few megabytes of them at once. Throws: as write_pieces.
+template <int D>
+void write_partitions(const MpiMesher<D>& mesher, const std::string& path);
+
+// --- Input -----------------------------------------------------------------------------------
+
+/// Of all: the dimension of the input in a file, as dimension_of (read.hpp).
+[[nodiscard]] int dimension_of(MPI_Comm communicator, const std::string& path);
+
+/// Of all: reads a graph, as read (read.hpp), with the same errors. Of points alone in a file with
+/// a line for each (.node, .xyz, .csv) a rank gets those of its share of the lines; such a file all
+/// ranks must be able to open. Of other files rank 0 gets all, and the others nothing. For insert()
+/// on the rank that has a point. Throws: Error, on all ranks.
+template <int D>
+[[nodiscard]] GraphFile<D> read(MPI_Comm communicator, const std::string& path,
+                                const ReadOptions& options = {});
+
+/// Of all: an error that all have, with the locations of its features in the file, of which each
+/// rank has what read() has given it; as located (graph.hpp).
+template <int D>
+[[nodiscard]] Error located(MPI_Comm communicator, const Error& error, const GraphFile<D>& share);
 
 }  // namespace mesher
