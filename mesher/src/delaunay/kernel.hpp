@@ -243,14 +243,14 @@ class DelaunayKernel {
   void check_facet(std::uint32_t s, std::size_t i) const;
   void check_vertices() const;
 
-  std::vector<Vertex> vertices_;  // the place of [0] is not a number
+  std::vector<Vertex, sac::HugePages<Vertex>> vertices_;  // the place of [0] is not a number
   Store store_;
   double least_reach_ = std::numeric_limits<double>::max();  // of places: see exact_reach
-  std::vector<double> reach_;                                // if there are balls: of each place
+  std::vector<double, sac::HugePages<double>> reach_;        // if there are balls: of each place
   std::uint32_t last_ = kNone;                               // where the last vertex was inserted
 
   // Scratch, empty between calls (the marks are 0).
-  std::vector<std::uint8_t> mark_;  // by simplex
+  std::vector<std::uint8_t, sac::HugePages<std::uint8_t>> mark_;  // by simplex
   std::vector<std::uint32_t> cavity_, outside_, link_, ridges_, made_;
   std::vector<Border> borders_;
   std::vector<std::array<std::uint32_t, D>> ends_;  // of the facets of borders_, by link_number

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "delaunay/simplex_ball.hpp"
+#include "sac/huge_pages.hpp"
 
 namespace mesher::detail {
 
@@ -92,7 +93,7 @@ class BallLayout {
   };
   static_assert(sizeof(Line) == (D == 3 ? 64 : 48));
 
-  std::vector<Line> lines_;
+  std::vector<Line, sac::HugePages<Line>> lines_;
 };
 
 }  // namespace mesher::detail

@@ -113,8 +113,8 @@ class LiveTriangulation {
 
   Kernel kernel_;
   double good2_;
-  std::vector<Simplex> simplices_;
-  std::vector<Around> around_;                               // by vertex
+  std::vector<Simplex, sac::HugePages<Simplex>> simplices_;
+  std::vector<Around, sac::HugePages<Around>> around_;       // by vertex
   double least2_ = std::numeric_limits<double>::infinity();  // of all distances to neighbours
   // The simplices around a vertex that was asked about, ghosts too, and what is known of them.
   VertexHandle center_ = 0;  // 0: of none

@@ -22,18 +22,21 @@ class HugePages {
 
   [[nodiscard]] T* allocate(std::size_t n) {
     const std::size_t bytes = n * sizeof(T);
-    if (bytes < kFrom) return static_cast<T*>(::operator new(bytes));
+    if (bytes < kFrom) return static_cast<T*>(::operator new(bytes, kAlignment));
     void* const block = ::operator new(bytes, std::align_val_t(kPage));
     advise_huge_pages(block, bytes);
     return static_cast<T*>(block);
   }
   void deallocate(T* block, std::size_t n) noexcept {
-    if (n * sizeof(T) < kFrom) return ::operator delete(block);
+    if (n * sizeof(T) < kFrom) return ::operator delete(block, kAlignment);
     ::operator delete(block, std::align_val_t(kPage));
   }
   friend bool operator==(const HugePages&, const HugePages&) noexcept { return true; }
 
  private:
+  static constexpr std::align_val_t kAlignment{alignof(T) > __STDCPP_DEFAULT_NEW_ALIGNMENT__
+                                                   ? alignof(T)
+                                                   : __STDCPP_DEFAULT_NEW_ALIGNMENT__};
   static constexpr std::size_t kPage = std::size_t{2} << 20;
   static constexpr std::size_t kFrom = 2 * kPage;
 };
