@@ -38,6 +38,7 @@ class Text {
     return *this;
   }
   [[nodiscard]] std::string_view view() const noexcept { return text_; }
+  void clear() noexcept { text_.clear(); }
 
  private:
   std::string text_;
@@ -76,29 +77,68 @@ struct MshLines {
   }
   template <class Out>
   void write_block(int kind, std::size_t count, Out& out) const {
-    if (count > 0) out << D << ' ' << partition + 1 << ' ' << kind << ' ' << count << '\n';
-  }
-  // number(i), place(i): of the i-th of so many.
-  template <class Number, class Place, class Out>
-  void write_nodes(std::size_t count, const Number& number, const Place& place, Out& out) const {
-    write_block(0, count, out);
-    for (std::size_t i = 0; i < count; ++i) out << number(i) << '\n';
-    for (std::size_t i = 0; i < count; ++i) {
-      write_place(place(i), out);
-      out << '\n';
-    }
-  }
-  template <class Out>
-  void write_elements(const Mesh<D>& own, const JointNumbers<D>& numbers, Out& out) const {
-    constexpr int kType = D == 2 ? 2 : 4;  // a triangle, a tetrahedron
-    write_block(kType, own.simplices.size(), out);
-    for (std::size_t i = 0; i < own.simplices.size(); ++i) {
-      out << numbers.first_simplex + i + 1;
-      for (const std::uint32_t v : own.simplices[i]) out << ' ' << numbers.vertices[v] + 1;
-      out << '\n';
-    }
+    out << D << ' ' << partition + 1 << ' ' << kind << ' ' << count << '\n';
   }
 };
+
+// The lines of a block, each by its number: none, if it is empty.
+template <int D, class Number, class Place>
+struct NodeLines {
+  MshLines<D> lines;
+  std::size_t count;
+  Number number;  // of the i-th node
+  Place place;
+
+  [[nodiscard]] std::size_t size() const { return count > 0 ? 1 + 2 * count : 0; }
+  template <class Out>
+  void write(std::size_t line, Out& out) const {
+    if (line == 0) return lines.write_block(0, count, out);
+    if (line <= count) {
+      out << number(line - 1);
+    } else {
+      write_place(place(line - 1 - count), out);
+    }
+    out << '\n';
+  }
+};
+template <int D, class Number, class Place>
+NodeLines(MshLines<D>, std::size_t, Number, Place) -> NodeLines<D, Number, Place>;
+
+template <int D>
+struct ElementLines {
+  MshLines<D> lines;
+  const Mesh<D>& own;
+  const JointNumbers<D>& numbers;
+
+  [[nodiscard]] std::size_t size() const {
+    return own.simplices.empty() ? 0 : 1 + own.simplices.size();
+  }
+  template <class Out>
+  void write(std::size_t line, Out& out) const {
+    constexpr int kType = D == 2 ? 2 : 4;  // a triangle, a tetrahedron
+    if (line == 0) return lines.write_block(kType, own.simplices.size(), out);
+    out << numbers.first_simplex + line;
+    for (const std::uint32_t v : own.simplices[line - 1]) out << ' ' << numbers.vertices[v] + 1;
+    out << '\n';
+  }
+};
+
+template <int D>
+struct EntityLine {
+  MshLines<D> lines;
+  const Mesh<D>& own;
+
+  [[nodiscard]] static std::size_t size() { return 1; }
+  template <class Out>
+  void write(std::size_t, Out& out) const {
+    lines.write_entity(bounding_box<D>(own.vertices), out);
+  }
+};
+
+template <class Lines, class Out>
+void write_all(const Lines& lines, Out& out) {
+  for (std::size_t line = 0; line < lines.size(); ++line) lines.write(line, out);
+}
 
 // Of a section: blocks, and numbers from `first` on.
 template <class Out>
@@ -133,7 +173,7 @@ class MshPiece {
     const std::uint64_t before = numbers_.first_simplex;
     write_counts(count > 0 ? 1 : 0, count, count > 0 ? before + 1 : 0,
                  count > 0 ? before + count : 0, file_);
-    lines_.write_elements(own_, numbers_, file_);
+    write_all(ElementLines<D>{lines_, own_, numbers_}, file_);
     file_ << "$EndElements\n";
   }
 
@@ -146,8 +186,8 @@ class MshPiece {
       last = std::max(last, number(i));
     }
     write_counts(nodes_.empty() ? 0 : 1, nodes_.size(), first, last, file_);
-    lines_.write_nodes(
-        nodes_.size(), number, [&](std::size_t i) { return own_.vertices[nodes_[i]]; }, file_);
+    const auto place = [&](std::size_t i) { return own_.vertices[nodes_[i]]; };
+    write_all(NodeLines{lines_, nodes_.size(), number, place}, file_);
   }
 
   const Mesh<D>& own_;
@@ -183,16 +223,22 @@ std::uint64_t having(bool mine, Peers& peers) {
   return all;
 }
 
-// Appends the texts of all processes, in their order, to the file of the first. Of all.
-void append(Peers& peers, std::string_view text, TextFile* file) {
+// Appends the lines of all processes, in their order, to the file of the first. Of all.
+template <class Lines>
+void append(Peers& peers, const Lines& lines, TextFile* file) {
+  Text text;
+  Peers::Views out;
+  together(peers, [&] { out.resize(peers.size()); });
   for (std::size_t from = 0; from < peers.size(); ++from) {
     const bool is_mine = from == peers.self();
-    std::uint64_t rest = is_mine ? text.size() : 0;
-    peers.sum({&rest, 1});
-    Peers::Views out;
-    together(peers, [&] { out.resize(peers.size()); });
-    for (std::uint64_t at = 0; at < rest; at += kSent) {
-      if (is_mine) out[0] = std::as_bytes(std::span(text.substr(at, kSent)));
+    std::size_t next = 0;
+    while (having(is_mine && next < lines.size(), peers) != 0) {
+      together(peers, [&] {
+        if (!is_mine) return;
+        text.clear();
+        for (; next < lines.size() && text.view().size() < kSent; ++next) lines.write(next, text);
+        out[0] = std::as_bytes(std::span(text.view()));
+      });
       const std::vector<Bytes> in = peers.exchange(out);
       together(peers, [&] {
         if (file == nullptr) return;
@@ -200,6 +246,7 @@ void append(Peers& peers, std::string_view text, TextFile* file) {
         *file << std::string_view(begin, in[from].size());
       });
     }
+    out[0] = {};
   }
 }
 
@@ -231,14 +278,12 @@ void write_msh_partitions(Peers& peers, const Mesh<D>& own, const JointNumbers<D
   const MshLines<D> lines{peers.self() + 1};
   OutputFiles files;
   TextFile* file = nullptr;  // of the first process
-  // Writes what is said once for all, and then what each process says.
+  // Writes what is said once for all, and then the lines of each process.
   const auto write = [&](const auto& once, const auto& each) {
-    Text text;
     together(peers, [&] {
       if (file != nullptr) once(*file);
-      each(text);
     });
-    append(peers, text.view(), file);
+    append(peers, each, file);
   };
   together(peers, [&] {
     if (peers.self() == 0) file = &files.open(path);
@@ -248,19 +293,17 @@ void write_msh_partitions(Peers& peers, const Mesh<D>& own, const JointNumbers<D
         lines.write_header(extent, peers.size(), out);
         out << (D == 2 ? "0 0 " : "0 0 0 ") << peers.size() << (D == 2 ? " 0\n" : "\n");
       },
-      [&](Text& out) { lines.write_entity(bounding_box<D>(own.vertices), out); });
+      EntityLine<D>{lines, own});
   const std::uint64_t node_blocks = having(!numbers.owned.empty(), peers);
+  const auto number = [&](std::size_t i) { return numbers.first_owned + i + 1; };
+  const auto place = [&](std::size_t i) { return numbers.owned[i]; };
   write(
       [&](TextFile& out) {
         out << "$EndPartitionedEntities\n$Nodes\n";
         write_counts(node_blocks, numbers.all_vertices, std::min<std::uint64_t>(node_blocks, 1),
                      numbers.all_vertices, out);
       },
-      [&](Text& out) {
-        lines.write_nodes(
-            numbers.owned.size(), [&](std::size_t i) { return numbers.first_owned + i + 1; },
-            [&](std::size_t i) { return numbers.owned[i]; }, out);
-      });
+      NodeLines{lines, numbers.owned.size(), number, place});
   const std::uint64_t element_blocks = having(!own.simplices.empty(), peers);
   write(
       [&](TextFile& out) {
@@ -268,7 +311,7 @@ void write_msh_partitions(Peers& peers, const Mesh<D>& own, const JointNumbers<D
         write_counts(element_blocks, numbers.all_simplices,
                      std::min<std::uint64_t>(element_blocks, 1), numbers.all_simplices, out);
       },
-      [&](Text& out) { lines.write_elements(own, numbers, out); });
+      ElementLines<D>{lines, own, numbers});
   together(peers, [&] {
     if (file == nullptr) return;
     *file << "$EndElements\n";

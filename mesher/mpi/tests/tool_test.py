@@ -151,7 +151,7 @@ def check_shares():
         ("b.xyz", "\n".join(solid), []),
         ("c.csv", "name,Z,x,y\n" + "\n".join("p " + p for p in solid).replace(" ", ","), []),
         ("more.node", marked + "\n1 0 0 0\n", []),
-        ("less.node", marked[:marked.rindex("\n")] + "\n# more\n", []),
+        ("less.node", marked[:marked.rindex("\n")] + "\n# more\n\n", []),
         ("cut.node", marked[:-2], []),
         ("fields.node", marked.replace(row, row + " 7"), []),
         ("number.node", marked.replace(row, "38 2.5 0.2x5 2"), []),
@@ -208,6 +208,7 @@ def check_errors():
         ([source, "-o", folder / "no.what"], 2, "unknown_format"),
         ([source, "-o", folder / "none" / "no.msh", "--partitions"], 2, "cannot_write"),
         ([source, "-o", folder / "no.msh", "--partitions", "--pieces"], 2, "bad_option"),
+        ([source, "-o", folder / "no.vtu", "--partitions"], 2, "no OUTPUT is one"),
         ([source, "--nonsense"], 2, "bad_option"),
     ):
         failed = run_ranks(3, *arguments)

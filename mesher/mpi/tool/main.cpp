@@ -154,6 +154,13 @@ class Program {
 
   // A bad path is found before the work begins.
   void require_outputs() const {
+    const auto is_msh = [](const std::string& path) { return mesher::format_of(path) == ".msh"; };
+    const auto& outputs = arguments_.outputs;
+    if ((arguments_.pieces || arguments_.partitions) &&
+        std::none_of(outputs.begin(), outputs.end(), is_msh)) {
+      throw Error(ErrorCode::bad_option,
+                  "--pieces and --partitions are for .msh: no OUTPUT is one");
+    }
     for (const std::string& path : arguments_.outputs) {
       mesher::OutputFiles files;
       files.protect(arguments_.input);
@@ -215,8 +222,8 @@ class Program {
       throw found.location().file.empty() ? found.at({arguments_.input}) : found;
     }
     // The mesher has them.
-    file_.graph.points = {};
-    file_.points = {};
+    file_.graph.points = std::vector<mesher::GraphPoint<D>>();
+    file_.points = std::vector<mesher::FilePosition>();
   }
 
   // Batch by batch; the edits of a batch are announced by the first rank.

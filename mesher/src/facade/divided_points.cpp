@@ -62,7 +62,7 @@ PointEdits<D> arrivals_here(const PointEdits<D>& share, const MeshBox<D>& box,
         const auto point = rest.take<NamedPlace<D>>();
         pending.set(point.id, {}, point.p);
       }
-      some = {};
+      some = Bytes();
     }
     here = pending.sorted();
   });

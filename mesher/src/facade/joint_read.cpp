@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -24,9 +25,13 @@ struct Division {
   std::string head;
 };
 
+// What cannot be divided is read by one, who says why if it cannot be read.
 Division division_of(const std::string& path) {
-  if (!has_line_points(path) || !std::filesystem::is_regular_file(path)) return {};
-  return {true, std::filesystem::file_size(path), head_of(path)};
+  std::error_code none;
+  if (!has_line_points(path) || !std::filesystem::is_regular_file(path, none)) return {};
+  const auto bytes = std::filesystem::file_size(path, none);
+  if (none || bytes == 0) return {};  // of some files the size is not known
+  return {true, bytes, head_of(path)};
 }
 
 Division told_by_first(const std::string& path, Peers& peers) {
@@ -57,12 +62,9 @@ text::Share share_of(const std::string& path, const Division& all, const Peers& 
     return head + bytes / size * process + std::min<std::uint64_t>(process, bytes % size);
   };
   text::Share share{.file = path, .is_first = peers.self() == 0};
-  share.lines = text::read_lines(path, begin_of(peers.self()), begin_of(peers.self() + 1));
-  if (share.is_first) {
-    share.lines.insert(0, all.head);
-  } else {
-    share.head = all.head;
-  }
+  if (!share.is_first) share.head = all.head;
+  const std::uint64_t begin = share.is_first ? 0 : begin_of(peers.self());
+  share.lines = text::read_lines(path, begin, begin_of(peers.self() + 1));
   return share;
 }
 
@@ -71,11 +73,16 @@ struct Counts {
   std::uint64_t has_fields;  // as wide as the others: no gap
 };
 
-Counts counts_of(const text::Share& share) {
+Counts counts_of(text::Share& share) {
   const std::string& lines = share.lines;
   auto ends = static_cast<std::uint64_t>(std::count(lines.begin(), lines.end(), '\n'));
   if (!lines.empty() && lines.back() != '\n') ++ends;
-  return {ends, count_rows(share), text::Lines(lines).at_end() ? 0U : 1U};
+  const std::size_t rows = count_rows(share);
+  std::string head;
+  head.swap(share.head);
+  const bool has_fields = !text::Lines(share).at_end();
+  head.swap(share.head);
+  return {ends, rows, has_fields ? 1U : 0U};
 }
 
 // Returns: how many rows there are in all shares.
@@ -148,11 +155,11 @@ std::optional<Repeat> first_repeat(const std::vector<GraphPoint<D>>& points, std
   std::vector<Bytes> in = told_each(out, peers);
   Packer mine;
   together(peers, [&] {
-    out = {};
+    out.clear();
     std::vector<Row> rows;
     for (Bytes& some : in) {
       for (Unpacker rest(some); !rest.is_empty();) rows.push_back(rest.take<Row>());
-      some = {};
+      some = Bytes();
     }
     sort_spread(
         rows, [](const Row& row) { return row_hash(row.key); },
@@ -229,7 +236,10 @@ int joint_dimension(const std::string& path, Peers& peers) {
   std::uint64_t is_in_plane = 1;
   together(peers, [&] {
     if (division.is_divided) {
-      is_in_plane = is_in_space(share_of(path, division, peers)) ? 0 : 1;
+      const bool is_told = head_tells_dimension(path);
+      const text::Share share =
+          is_told ? text::Share{path, division.head} : share_of(path, division, peers);
+      is_in_plane = is_in_space(share) ? 0 : 1;
     } else if (peers.self() == 0) {
       is_in_plane = dimension_of(path) == 3 ? 0 : 1;
     }
@@ -254,7 +264,7 @@ GraphFile<D> joint_read(const std::string& path, const ReadOptions& options, Pee
   // The first that fails has what is wrong first.
   together(peers, [&] {
     file = read_share<D>(share);
-    share.lines = {};
+    std::string().swap(share.lines);
     require_indexable(static_cast<std::size_t>(rows), path);
   });
   require_distinct(file, share.rows_before, options.coinciding, peers);
@@ -263,7 +273,6 @@ GraphFile<D> joint_read(const std::string& path, const ReadOptions& options, Pee
 
 template <int D>
 Error joint_located(const Error& error, const GraphFile<D>& share, Peers& peers) {
-  std::vector<FileLocation> locations;
   Packer mine;
   together(peers, [&] {
     for (const mesher::Feature& feature : error.features()) {
@@ -287,7 +296,7 @@ Error joint_located(const Error& error, const GraphFile<D>& share, Peers& peers)
     std::size_t next = 0;
     found = located(error, [&](const mesher::Feature&) { return of_all[next++]; });
   });
-  return *found;
+  return std::move(*found);
 }
 
 template GraphFile<2> joint_read(const std::string&, const ReadOptions&, Peers&);

@@ -73,7 +73,7 @@ void PointDirectory<D>::collect(const std::vector<Announcement>& announced,
           number = next.number;
           next.edit.make(*this, edits);
         }
-        come[from] = {};
+        come[from] = Bytes();
       }
     } catch (const Error& error) {
       refused.emplace(Number{from, number}, error);
@@ -99,7 +99,7 @@ void PointDirectory<D>::commit() noexcept {
     if (!edit.to) places_.erase(edit.id);
   }
   places_.merge(coming_);
-  prepared_ = {}, coming_ = Places();
+  prepared_ = std::vector<typename Pending<D>::Edit>(), coming_ = Places();
 }
 
 template <int D>

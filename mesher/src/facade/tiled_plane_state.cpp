@@ -87,7 +87,7 @@ auto TiledPlaneState::build(const Tiles::Ask& ask) -> std::unique_ptr<Tiles> {
     world_->leaves.for_each([&](const Leaf& leaf) { lines.leaves.push_back({leaf.piece, true}); });
   });
   const Held held(world_->features);
-  if (ask && peers_.is_alone()) tiles->bound_looks();
+  if (ask && &peers_ == &alone_) tiles->bound_looks();
   tiles->first_run(by_tile, ask, common);
   return tiles;
 }

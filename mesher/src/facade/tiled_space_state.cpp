@@ -80,7 +80,7 @@ auto TiledSpaceState::build(const Tiles::Ask& ask) -> std::unique_ptr<Tiles> {
     number(orders);
     edge_numbers_.commit(), polygon_numbers_.commit();
   });
-  if (ask && peers_.is_alone()) tiles->bound_looks();
+  if (ask && &peers_ == &alone_) tiles->bound_looks();
   tiles->first_run(by_tile, ask, common);
   return tiles;
 }

@@ -146,7 +146,7 @@ void TiledState<D>::start(TiledMesher<D>& tiles, const typename TiledMesher<D>::
     });
   });
   const Held held(features_);
-  if (ask && peers_.is_alone() && !is_divided()) tiles.bound_looks();
+  if (ask && &peers_ == &alone_) tiles.bound_looks();
   tiles.first_run(by_tile, ask);
 }
 
@@ -179,7 +179,7 @@ Change<D> TiledState<D>::first_run(Edits<D> edits, const RunControl& control,
   std::unique_ptr<TiledMesher<D>> tiles;
   together(peers_, [&] { tiles = make_all(); });
   if (is_divided()) insert_divided(edits.points, *tiles);
-  edits.points = {};
+  edits.points = PointEdits<D>();
   in_tiles([&] { start(*tiles, ask); }, limits_.any() || bounds_dihedrals(options_));
   tiles_ = std::move(tiles);
   Change<D> change;

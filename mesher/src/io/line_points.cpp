@@ -32,6 +32,8 @@ std::string head_of(const std::string& path) {
   return extension == ".node" ? head_of<text::FieldLines>(path) : "";
 }
 
+bool head_tells_dimension(const std::string& path) { return text::extension(path) == ".node"; }
+
 std::size_t count_rows(const text::Share& share) {
   const std::string extension = text::extension(share.file);
   if (extension == ".csv") return csv_rows(share);

@@ -17,6 +17,9 @@ namespace mesher {
 /// What all shares of such a file need of it: its first lines. Throws: Error(cannot_read).
 [[nodiscard]] std::string head_of(const std::string& path);
 
+/// Whether that is all that is_in_space() needs.
+[[nodiscard]] bool head_tells_dimension(const std::string& path);
+
 /// How many points there are in a share, if nothing is wrong.
 [[nodiscard]] std::size_t count_rows(const text::Share& share);
 
@@ -56,7 +59,7 @@ template <int D>
 /// The lines of a file up to the first that AllLines finds.
 template <class AllLines>
 [[nodiscard]] std::string head_of(const std::string& path) {
-  for (std::size_t most = std::size_t{1} << 12;; most = SIZE_MAX) {
+  for (std::size_t most = std::size_t{1} << 12;; most *= 16) {
     text::Share start{.file = path, .lines = text::read_file(path, most)};
     AllLines lines(start);
     const bool found = lines.next();

@@ -150,6 +150,7 @@ NodeFile<D> read_node(const text::Share& share, CoordinateRule rule) {
   nodes.rows.points.reserve(most);
   nodes.rows.lines.reserve(most);
   const auto rows = [&] { return share.rows_before + nodes.rows.ids.size(); };
+  FilePosition end = lines.line().position(lines.line().size());  // of what has been read
   while (lines.next()) {
     const text::Line& line = lines.line();
     if (std::cmp_greater_equal(rows(), header.count)) {
@@ -161,6 +162,7 @@ NodeFile<D> read_node(const text::Share& share, CoordinateRule rule) {
     nodes.rows.ids.push_back(PointId{line.integer(0)});
     nodes.rows.points.push_back(read_node_point<D>(line, rule));
     nodes.rows.lines.push_back(line.number());
+    end = line.position(line.size());
     if (rule == CoordinateRule::finite) {
       columns.add(line);
     } else if (header.markers == 1) {
@@ -168,10 +170,10 @@ NodeFile<D> read_node(const text::Share& share, CoordinateRule rule) {
     }
   }
   if (!share.is_followed && std::cmp_less(rows(), header.count)) {
-    throw lines.line().error(ErrorCode::truncated,
-                             "the file ends after " + std::to_string(rows()) + " of " +
-                                 std::to_string(header.count) + " points",
-                             lines.line().size());
+    throw Error(ErrorCode::truncated,
+                "the file ends after " + std::to_string(rows()) + " of " +
+                    std::to_string(header.count) + " points",
+                {share.file, end.line, end.column});
   }
   if (rule == CoordinateRule::finite) columns.give(nodes);
   return nodes;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <filesystem>
 #include <string>
 
 #include "random.hpp"
@@ -180,7 +181,7 @@ class RandomFile {
 TEST_CASE("several processes read what one reads, and find what it finds wrong") {
   const support::ScratchFolder folder;
   int good = 0, bad = 0;
-  for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     for (const std::string format : {".node", ".xyz", ".csv"}) {
       const std::string path = folder.write("a" + format, RandomFile(format, seed).text());
       CAPTURE(seed);
@@ -192,8 +193,8 @@ TEST_CASE("several processes read what one reads, and find what it finds wrong")
                                                                                           : bad);
     }
   }
-  CHECK(good > 100);
-  CHECK(bad > 100);
+  CHECK(good > 40);
+  CHECK(bad > 40);
 }
 
 TEST_CASE("shares that are cut in one line, or hold none") {
@@ -212,6 +213,21 @@ TEST_CASE("shares that are cut in one line, or hold none") {
   check(folder.write("mark.xyz",
                      "1 2\n\xEF\xBB\xBF"
                      "3 4\n5 6\n"));
+  check(folder.write("inner_mark.xyz", "1 2\n3\n\xEF\xBB\xBF\n"));
+  check(folder.write("inner_mark.csv", "1,2\n3\n\xEF\xBB\xBF\n"));
+  check(folder.write("ends.node", "5 2 0 0\n1 0 0\n2 1 1\n# more\n\n  \n# and more\n"));
+  check(folder.write("long_head.csv", "#" + std::string(200000, 'c') + "\nx,y\n1,2\n3,4\n"));
+#ifdef __linux__
+  // A file that says that it has no bytes.
+  std::filesystem::create_symlink("/proc/sys/kernel/pid_max", folder.path("one_number.xyz"));
+  std::filesystem::create_symlink("/proc/sys/net/ipv4/ip_local_port_range",
+                                  folder.path("proc.xyz"));
+  check(folder.path("one_number.xyz"));
+  check(folder.path("proc.xyz"));
+#endif
+  std::filesystem::create_symlink(folder.path("loop.node"), folder.path("loop.node"));
+  check(folder.path("loop.node"));
+  check(folder.path(std::string(5000, 'n') + ".node"));
   check(folder.path("missing.node"));
   check(folder.path("missing.xyz"));
   check(folder.write("a.poly", "3 2\n1 0 0\n2 1 0\n3 0 1\n1\n1 1 2\n0\n"));

@@ -156,8 +156,8 @@ template <int D>
 void write_pieces(const MpiMesher<D>& mesher, const std::string& path);
 
 /// Of all: writes the mesh to one .msh file, as `gmsh -part` writes it: the simplices of each rank
-/// are the entity of a partition. Numbers are as in pieces. Ranks send their lines to rank 0, which
-/// has a few megabytes of them at once. Throws: as write_pieces.
+/// are the entity of a partition. Numbers are as in pieces. Ranks send their lines to rank 0, some
+/// megabytes at a time. Throws: as write_pieces.
 template <int D>
 void write_partitions(const MpiMesher<D>& mesher, const std::string& path);
 
