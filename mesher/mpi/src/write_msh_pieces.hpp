@@ -19,8 +19,8 @@ template <int D>
 void write_msh_pieces(Peers& peers, const Mesh<D>& own, const JointNumbers<D>& numbers,
                       const std::string& path);
 
-/// The same in one file, which the first process writes as the others send it their lines, 4 MB at a
-/// time: nobody has more of them at once.
+/// The same in one file, which the first process writes as the others send it their lines, 4 MB at
+/// a time: nobody has more of them at once.
 template <int D>
 void write_msh_partitions(Peers& peers, const Mesh<D>& own, const JointNumbers<D>& numbers,
                           const std::string& path);

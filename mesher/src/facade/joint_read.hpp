@@ -14,8 +14,9 @@ namespace mesher::detail {
 
 /// As read(). Of points alone in a file with a line for each (.node, .xyz, .csv) each process gets
 /// those of its share of the lines, which all must be able to read; of other files the first
-/// process gets all. Throws: Error as read(), in all. Cost: O(n log n); of memory, while it runs and
-/// beside the points, 3 to 4 times the bytes of a share, and up to 8 times where lines are short.
+/// process gets all. Throws: Error as read(), in all. Cost: O(n log n); of memory, while it runs
+/// and beside the points, 3 to 4 times the bytes of a share, and up to 8 times where lines are
+/// short.
 template <int D>
 [[nodiscard]] GraphFile<D> joint_read(const std::string& path, const ReadOptions& options,
                                       Peers& peers);

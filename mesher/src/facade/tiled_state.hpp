@@ -41,8 +41,8 @@ class TiledState final : public AnyState<D>, public PartOfMesh<D> {
   TiledState(const Options<D>& options, Peers& peers, std::size_t tiles = 0,
              PointsOf points = PointsOf::all_processes);
 
-  /// It throws NotInTiles, too; so does propagate() where there are limits of size or of angles, and
-  /// NotInTilesYet.
+  /// It throws NotInTiles, too; so does propagate() where there are limits of size or of angles,
+  /// and NotInTilesYet.
   Change<D> first_run(Edits<D> edits, const RunControl& control, const Accept& accept) override;
   /// Points, and limits of size.
   [[nodiscard]] bool takes(const Edits<D>& edits) const noexcept override;
