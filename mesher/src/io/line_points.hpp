@@ -43,6 +43,10 @@ template <int D>
 [[nodiscard]] PointFile<D> read_xyz(const text::Share& share);
 template <int D>
 [[nodiscard]] PointFile<D> read_csv(const text::Share& share);
+template <>
+PointFile<2> read_csv<2>(const text::Share& share);
+template <>
+PointFile<3> read_csv<3>(const text::Share& share);
 
 [[nodiscard]] bool node_is_in_space(const text::Share& share);
 /// Whether a z is not 0.
