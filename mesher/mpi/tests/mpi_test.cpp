@@ -360,9 +360,9 @@ void check_files() {
   const mesher::Mesh<2> msh = mesher::read_mesh<2>(name + "_" + std::to_string(self + 1) + ".msh");
   demand(corners_of(msh) == corners_of(own), "a piece of Gmsh");
   demand(!std::filesystem::exists(name + ".msh"), "pieces alone");
-  mesher::write_partitions(m, name + ".msh");
+  mesher::write_partitions(m, name + "_all.msh");
   if (self == 0) {
-    const mesher::Mesh<2> one = mesher::read_mesh<2>(name + ".msh");
+    const mesher::Mesh<2> one = mesher::read_mesh<2>(name + "_all.msh");
     auto corners = corners_of(one), expected = corners_of(both.one().mesh());
     std::sort(corners.begin(), corners.end()), std::sort(expected.begin(), expected.end());
     demand(corners == expected, "one file of all partitions");
