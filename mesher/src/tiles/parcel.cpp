@@ -25,6 +25,8 @@ void pack(const Error& error, Packer& to) {
   pack(error.location(), to);
   to.put_all(error.features());
   to.put_all(error.places());
+  to.put(std::uint64_t{error.locations().size()});
+  for (const FileLocation& at : error.locations()) pack(at, to);
 }
 
 Error unpack_error(Unpacker& from) {
@@ -33,7 +35,13 @@ Error unpack_error(Unpacker& from) {
   FileLocation location = unpack_location(from);
   auto features = from.take_all<mesher::Feature>();
   auto places = from.take_all<Position>();
-  return {code, std::move(message), std::move(location), std::move(features), std::move(places)};
+  std::vector<FileLocation> locations;
+  for (auto left = from.take<std::uint64_t>(); left > 0; --left) {
+    locations.push_back(unpack_location(from));
+  }
+  return Error(code, std::move(message), std::move(location), std::move(features),
+               std::move(places))
+      .with_locations(std::move(locations));
 }
 
 }  // namespace mesher::detail

@@ -214,6 +214,7 @@ TEST_CASE("shares that are cut in one line, or hold none") {
                      "1 2\n\xEF\xBB\xBF"
                      "3 4\n5 6\n"));
   check(folder.write("inner_mark.xyz", "1 2\n3\n\xEF\xBB\xBF\n"));
+  check(folder.write("onto.csv", "1,2\n3,4\n5,6\n3,4\n"));
   check(folder.write("inner_mark.csv", "1,2\n3\n\xEF\xBB\xBF\n"));
   check(folder.write("ends.node", "5 2 0 0\n1 0 0\n2 1 1\n# more\n\n  \n# and more\n"));
   check(folder.write("long_head.csv", "#" + std::string(200000, 'c') + "\nx,y\n1,2\n3,4\n"));
