@@ -231,7 +231,7 @@ Graph<2> two_crossing() {
 }  // namespace
 
 TEST_CASE("random lines on small lattices become planar, near what they were, for a mesher") {
-  for (std::uint64_t seed = 1; seed <= 80; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 150; ++seed) {
     INFO("seed " << seed);
     Nasty nasty(seed);
     const auto size = static_cast<std::size_t>(4 + nasty.below(20));
@@ -257,7 +257,7 @@ TEST_CASE("a repair takes scales and places from one end of the range to the oth
 }
 
 TEST_CASE("what a repair makes depends on places and ids, not on the order of the input") {
-  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     INFO("seed " << seed);
     Nasty nasty(seed);
     Graph<2> g = moved(nasty.lattice(6, 16, 16), 1 / 3.0, 0.1);
