@@ -276,9 +276,7 @@ Error joint_located(const Error& error, const GraphFile<D>& share, Peers& peers)
   Packer mine;
   together(peers, [&] {
     for (const mesher::Feature& feature : error.features()) {
-      const FileLocation at = location_of(feature, share);
-      mine.put_all(std::string_view(at.file));
-      mine.put(at.line), mine.put(at.column);
+      pack(location_of(feature, share), mine);
     }
   });
   const std::vector<Bytes> told = peers.gather(mine.bytes());
@@ -288,8 +286,7 @@ Error joint_located(const Error& error, const GraphFile<D>& share, Peers& peers)
     for (const Bytes& one : told) {
       Unpacker rest(one);
       for (FileLocation& at : of_all) {
-        FileLocation here{rest.take_text()};
-        here.line = rest.take<long>(), here.column = rest.take<long>();
+        FileLocation here = unpack_location(rest);
         if (at.file.empty() || here.line > 0) at = std::move(here);
       }
     }

@@ -1,9 +1,7 @@
-// Errors as bytes.
+// Errors, and places in files, as bytes.
 #include "tiles/parcel.hpp"
 
 namespace mesher::detail {
-
-namespace {
 
 void pack(const FileLocation& location, Packer& to) {
   to.put_all(std::string_view(location.file));
@@ -16,8 +14,6 @@ FileLocation unpack_location(Unpacker& from) {
   location.column = from.take<long>();
   return location;
 }
-
-}  // namespace
 
 void pack(const Error& error, Packer& to) {
   to.put(error.code());

@@ -84,6 +84,8 @@ class Unpacker {
   std::span<const std::byte> rest_;
 };
 
+void pack(const FileLocation& location, Packer& to);
+[[nodiscard]] FileLocation unpack_location(Unpacker& from);
 void pack(const Error& error, Packer& to);
 [[nodiscard]] Error unpack_error(Unpacker& from);
 
